@@ -1,0 +1,1 @@
+"""Shipped data: crop profiles, robots, fields, and the wire layout of the wheel modules."""

@@ -1,0 +1,43 @@
+"""The two ports between the application and a robot, real or simulated."""
+
+from collections.abc import Mapping
+from typing import Protocol
+
+from fieldnav.messages import Frame, Wheel, WheelReport, WheelSetpoint
+
+
+class Camera(Protocol):
+    """A camera that gives its newest frame, never a queue."""
+
+    def latest(self, now_s: float) -> Frame | None:
+        """The newest frame that has arrived by `now_s`; None before the first.
+
+        The same object is returned until a newer frame arrives.
+
+        Raises DriverError when the source is gone.
+        """
+        ...
+
+    def close(self) -> None: ...
+
+
+class Wheels(Protocol):
+    """The four wheel modules."""
+
+    def start(self, now_s: float) -> None:
+        """Bring the modules to operation and command zero; nothing moves before this."""
+        ...
+
+    def poll(self, now_s: float) -> WheelReport:
+        """Take in what the modules said. Raises DriverError when one has been silent too long."""
+        ...
+
+    def command(self, now_s: float, setpoints: Mapping[Wheel, WheelSetpoint]) -> None:
+        """Send one set-point to each module, clipped to what the module can do."""
+        ...
+
+    def stop(self, now_s: float) -> None:
+        """Command zero speed at the present steering angles; never raises, may be repeated."""
+        ...
+
+    def close(self) -> None: ...

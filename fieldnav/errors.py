@@ -1,0 +1,17 @@
+"""The errors of fieldnav: one small tree, raised where a fault is seen and caught once at the top."""
+
+
+class FieldnavError(Exception):
+    """Anything fieldnav stops for; its text is one line that a person can act on."""
+
+
+class SettingsError(FieldnavError):
+    """A file or an option is wrong; names the file, the key, the value and what is allowed."""
+
+
+class DriverError(FieldnavError):
+    """A camera, the bus or a wheel module does not do what it must."""
+
+
+class OutputError(FieldnavError):
+    """A run directory or a report cannot be written."""

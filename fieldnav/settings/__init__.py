@@ -1,0 +1,1 @@
+"""Settings that people write: crop profiles, robots and fields, as YAML checked by pydantic."""

@@ -1,0 +1,126 @@
+"""Crop profile: everything about a crop that the robot must know, in metres rather than pixels."""
+
+from enum import Enum
+from typing import Annotated
+
+from pydantic import Field
+
+from fieldnav.settings.model import Settings
+
+Fraction = Annotated[float, Field(ge=0, le=1)]
+Seconds = Annotated[float, Field(gt=0, le=60)]
+
+
+class VegetationIndex(Enum):
+    """How green a pixel is; excess green: 2g - r - b of brightness-normalised channels (Woebbecke 1995)."""
+
+    EXCESS_GREEN = "excess_green"
+
+
+class RowFinder(Enum):
+    """The method that finds rows in a fresh frame."""
+
+    MOVING_VARIANCE = "moving_variance"
+
+
+class Rows(Settings):
+    """How the crop is sown: rows under the robot and the distance between them."""
+
+    per_lane: int = Field(ge=1, le=8)
+    spacing_m: float = Field(ge=0.1, le=1.5)
+
+
+class Plants(Settings):
+    """How a plant of this crop stands at this growth stage."""
+
+    spacing_m: float = Field(ge=0.01, le=1.5, description="distance between plants within the row")
+    canopy_width_m: float = Field(ge=0.02, le=1.2)
+    canopy_height_m: float = Field(ge=0.02, le=0.86, description="below the robot's clearance of 0.86 m")
+
+
+class Vegetation(Settings):
+    """Paper III-A.1: excess green, Otsu's threshold, connected regions, centres of mass."""
+
+    index: VegetationIndex = VegetationIndex.EXCESS_GREEN
+    floor: float = Field(
+        default=0.08, ge=0, le=1, description="index below which a pixel is never a plant, 0 to 1"
+    )
+    smallest_area_m2: float = Field(default=0.0002, ge=0, le=0.1)
+    tallest_region_m: float = Field(default=0.25, ge=0.02, le=2, description="taller regions are divided")
+
+
+class Finding(Settings):
+    """Paper III-A.2: the sliding window and the field-structure signal, relative to the image's width."""
+
+    method: RowFinder = RowFinder.MOVING_VARIANCE
+    window: float = Field(
+        default=0.1, gt=0.01, le=0.5, description="window width over image width (paper: W/10)"
+    )
+    stride: float = Field(
+        default=13 / 1280, gt=0.001, le=0.1, description="stride over image width (paper: 13 px)"
+    )
+    neighbours: int = Field(default=10, ge=2, le=100, description="k of the moving variance (paper: 10)")
+    prominence_deg2: float = Field(default=6.0, gt=0, le=500, description="of the peaks and troughs")
+
+
+class Tracking(Settings):
+    """Paper III-A.3: the parallelogram on each row."""
+
+    narrowest: Fraction = Field(default=0.05, description="parallelogram width over image width (paper: 5 %)")
+    hold_s: Seconds = Field(default=4.0, description="how long a row that is not seen keeps its last line")
+    fewest_centres: int = Field(default=2, ge=2, le=50)
+
+
+class RowEnd(Settings):
+    """When following and exit end (paper III-A.3), as a decision over time and distance."""
+
+    confirm_s: Seconds = 0.4
+    confirm_m: float = Field(default=0.15, gt=0, le=3)
+    longest_gap_m: float = Field(
+        default=2.0, ge=0, le=10, description="stretch without any plant that is no row end"
+    )
+
+
+class Recognition(Settings):
+    """Paper III-C: telling a new row from the same one by SIFT features."""
+
+    match_ratio: float = Field(
+        default=0.0, ge=0, le=2000, description="lambda: matches at or below are left out"
+    )
+    new_row_distance: float = Field(
+        default=230.0, gt=0, le=2000, description="tau: mean distance of a new row's matches"
+    )
+    confirm_frames: int = Field(default=3, ge=1, le=100)
+
+
+class Speeds(Settings):
+    """Working speeds; the robot's own limits hold in any case."""
+
+    follow_mps: float = Field(default=0.5, gt=0, le=1.5)
+    acquire_mps: float = Field(default=0.2, gt=0, le=1.0)
+    exit_mps: float = Field(default=0.3, gt=0, le=1.0)
+    sidestep_mps: float = Field(default=0.15, gt=0, le=0.5)
+
+
+class Servoing(Settings):
+    """Gains of the visual servoing (paper III-B), one a feature error."""
+
+    offset_gain: float = Field(default=1.0, gt=0, le=20)
+    heading_gain: float = Field(default=1.0, gt=0, le=20)
+
+
+class CropProfile(Settings):
+    """A crop at a growth stage, and how to see and follow it."""
+
+    name: str = Field(pattern=r"^[a-z][a-z0-9-]*$")
+    growth_stage: str
+    rows: Rows
+    plants: Plants
+    vegetation: Vegetation = Vegetation()
+    finding: Finding = Finding()
+    tracking: Tracking = Tracking()
+    row_end: RowEnd = RowEnd()
+    recognition: Recognition = Recognition()
+    speeds: Speeds = Speeds()
+    servoing: Servoing = Servoing()
+    tuned_for: str = Field(min_length=1, description="the range of conditions this profile was tuned for")

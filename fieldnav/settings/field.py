@@ -1,0 +1,118 @@
+"""Field file: the world a simulated run happens in, and how hard it is made. Used by the simulation alone."""
+
+from enum import Enum
+
+from pydantic import Field
+
+from fieldnav.settings.model import Settings
+
+
+class Shape(Enum):
+    STRAIGHT = "straight"
+    CURVED = "curved"
+
+
+class Rows(Settings):
+    """How far the rows are from a ruler's line."""
+
+    shape: Shape = Shape.STRAIGHT
+    radius_m: float = Field(default=25.0, ge=8, le=1000, description="tightest radius of a curved field")
+    wavelength_m: float = Field(default=40.0, ge=10, le=500, description="length of one left and right bend")
+    wander_m: float = Field(default=0.02, ge=0, le=0.2, description="rms departure from straight")
+    wander_length_m: float = Field(default=5.0, ge=1, le=50)
+    scatter_m: float = Field(default=0.015, ge=0, le=0.1, description="rms distance of a plant from its row")
+    spacing_error: float = Field(default=0.0, ge=0, le=0.3, description="uneven row distances, as a fraction")
+    ragged_m: float = Field(default=0.1, ge=0, le=0.5, description="row ends lie within plus or minus this")
+
+
+class Gaps(Settings):
+    """Stretches without plants."""
+
+    germination: float = Field(default=0.95, gt=0.1, le=1)
+    row_gaps_per_10m: float = Field(default=0.3, ge=0, le=5, description="in one row")
+    row_gap_m: tuple[float, float] = (0.4, 1.0)
+    lane_gaps_per_10m: float = Field(default=0.0, ge=0, le=1, description="in all rows of a lane at once")
+    lane_gap_m: tuple[float, float] = (0.5, 1.0)
+
+
+class Weeds(Settings):
+    """Plants that are not the crop."""
+
+    per_m2: float = Field(default=2.0, ge=0, le=60)
+    size_m: tuple[float, float] = (0.02, 0.08)
+    patches: float = Field(default=0.3, ge=0, le=1, description="share of the weeds that grow in patches")
+    headland_per_m2: float = Field(default=0.3, ge=0, le=20)
+
+
+class Light(Settings):
+    """Sun and sky."""
+
+    sun_elevation_deg: float = Field(default=50.0, ge=5, le=90)
+    sun_azimuth_deg: float = Field(
+        default=120.0, ge=-360, le=360, description="counter-clockwise from the lanes' x"
+    )
+    sunshine: float = Field(default=0.7, ge=0, le=1, description="0 overcast, 1 clear sky with hard shadows")
+
+
+class Ground(Settings):
+    """Soil."""
+
+    colour_bgr: tuple[int, int, int] = (72, 96, 122)
+    roughness: float = Field(default=0.5, ge=0, le=1)
+    residue: float = Field(default=0.1, ge=0, le=1, description="cover of straw and stalks")
+    stones: float = Field(default=0.1, ge=0, le=1)
+    side_slope_deg: float = Field(default=2.0, ge=-10, le=10, description="positive: the left side is higher")
+    slip: float = Field(default=0.02, ge=0, le=0.3)
+
+
+class CameraErrors(Settings):
+    """What the cameras do that their file does not say."""
+
+    shake_deg: float = Field(default=1.0, ge=0, le=5, description="rms of roll and of pitch")
+    shake_hz: tuple[float, float] = (1.0, 2.0)
+    bounce_m: float = Field(default=0.02, ge=0, le=0.1, description="height, plus or minus")
+    tilt_error_deg: float = Field(default=1.5, ge=0, le=10, description="calibration, plus or minus")
+    height_error_m: float = Field(default=0.03, ge=0, le=0.2)
+    focal_error: float = Field(default=0.02, ge=0, le=0.2)
+    latency_s: float = Field(default=0.07, ge=0, le=0.5)
+    lost_frames: float = Field(default=0.01, ge=0, le=0.5)
+    exposure_s: float = Field(default=0.004, ge=0, le=0.03, description="motion blur")
+    noise: float = Field(default=3.0, ge=0, le=30, description="standard deviation in grey levels")
+    vignetting: float = Field(default=0.25, ge=0, le=0.8, description="darkening of the corners")
+    exposure_drift: float = Field(default=0.1, ge=0, le=0.5)
+
+
+class WheelErrors(Settings):
+    """What the wheel modules do that they were not told."""
+
+    speed_error: float = Field(default=0.02, ge=0, le=0.2, description="per module, plus or minus")
+    steering_zero_deg: float = Field(default=0.5, ge=0, le=5, description="per module, plus or minus")
+    can_delay_s: float = Field(default=0.005, ge=0, le=0.1)
+
+
+class Start(Settings):
+    """How the robot is set down at its first lane; drawn within plus or minus these."""
+
+    offset_m: float = Field(default=0.04, ge=0, le=0.3)
+    heading_deg: float = Field(default=2.0, ge=0, le=15)
+
+
+class FieldSettings(Settings):
+    """A simulated field. `mirrored` swaps left and right of the finished world."""
+
+    name: str = Field(pattern=r"^[a-z][a-z0-9-]*$")
+    crop: str
+    lanes: int = Field(ge=1, le=100)
+    length_m: float = Field(ge=4, le=2000)
+    lane_pitch_m: float = Field(default=1.5, ge=0.5, le=5)
+    seed: int = Field(default=1, ge=0, le=2**31 - 1)
+    mirrored: bool = False
+    rows: Rows = Rows()
+    gaps: Gaps = Gaps()
+    weeds: Weeds = Weeds()
+    light: Light = Light()
+    wind_mps: float = Field(default=2.0, ge=0, le=15)
+    ground: Ground = Ground()
+    camera_errors: CameraErrors = CameraErrors()
+    wheel_errors: WheelErrors = WheelErrors()
+    start: Start = Start()
