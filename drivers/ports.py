@@ -24,6 +24,11 @@ class Camera(Protocol):
 class Wheels(Protocol):
     """The four wheel modules."""
 
+    @property
+    def ready(self) -> bool:
+        """Whether all modules are up and are the ones of the robot file."""
+        ...
+
     def start(self, now_s: float) -> None:
         """Bring the modules to operation and command zero; nothing moves before this."""
         ...

@@ -48,7 +48,7 @@ class Pinhole:
         return np.asarray(self.focal_px * (sin(self.tilt_rad) + y * cos(self.tilt_rad)) / self.height_m)
 
     def row_on_ground(self, row: RowLine) -> tuple[float, float]:
-        """The ground line y = offset + slope * x of a row line: (offset_m at the centre, slope)."""
+        """The ground line y = offset + slope * x of a row line, as (offset_m, slope)."""
         last = self.height_px - 1.0
         far, near = self.to_ground(np.array([[row.x_top_px, 0.0], [row.x_bottom_px, last]]))
         slope = float((far[1] - near[1]) / (far[0] - near[0]))

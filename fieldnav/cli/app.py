@@ -1,1 +1,92 @@
-def main() -> None: ...
+"""The command line: every command hangs here, and every error ends here as one line."""
+
+import os
+import sys
+from typing import Annotated
+
+import typer
+
+from fieldnav import __version__
+from fieldnav.cli.console import FAILED, print_error
+from fieldnav.cli.detect import detect
+from fieldnav.cli.diagram import diagram
+from fieldnav.cli.log import log
+from fieldnav.cli.profiles import profiles
+from fieldnav.cli.simulate import simulate
+from fieldnav.errors import FieldnavError
+
+OK, INTERRUPTED = 0, 130
+"""Exit statuses: done; stopped by Ctrl-C, as shells have it (128 + SIGINT)."""
+
+UsageError: type[Exception] = typer.BadParameter.__mro__[2]
+"""What typer raises for a wrong option; its own name is private in some versions of typer."""
+
+app = typer.Typer(
+    name="fieldnav",
+    no_args_is_help=True,
+    add_completion=False,
+    pretty_exceptions_enable=False,
+    context_settings={"help_option_names": ["-h", "--help"]},
+)
+
+
+def _print_version(wanted: bool) -> None:
+    if wanted:
+        print(f"fieldnav {__version__}")
+        raise typer.Exit
+
+
+@app.callback()
+def fieldnav(
+    version: Annotated[
+        bool, typer.Option("--version", callback=_print_version, is_eager=True, help="Print the version.")
+    ] = False,
+) -> None:
+    """Drive a four-wheel-steer robot through a row-crop field, by sight alone.
+
+    Begin with: fieldnav simulate demo
+    """
+
+
+app.command()(simulate)
+app.command()(detect)
+app.add_typer(log)
+app.add_typer(profiles)
+app.command()(diagram)
+
+
+def run(arguments: list[str] | None = None) -> int:
+    """Run a command; returns the exit status and never lets an error through as a traceback."""
+    try:
+        status = app(arguments, prog_name="fieldnav", standalone_mode=False)
+        sys.stdout.flush()
+    except FieldnavError as error:
+        print_error(str(error))
+        return FAILED
+    except (KeyboardInterrupt, typer.Abort):
+        print_error("interrupted")
+        return INTERRUPTED
+    except BrokenPipeError:
+        # The reader has gone, as `head` does; standard output must not be flushed into it again at exit.
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        return OK
+    except UsageError as error:
+        if line := _usage(error):
+            print_error(line)
+        return FAILED
+    return status if isinstance(status, int) else OK
+
+
+def _usage(error: Exception) -> str:
+    """A usage error and the way to the command's help; empty when that help has been shown already."""
+    message = error.format_message() if hasattr(error, "format_message") else str(error)
+    message = str(message).replace("Value error, ", "")  # pydantic's prefix
+    if not message:
+        return ""
+    context = getattr(error, "ctx", None)
+    path = context.command_path if context else "fieldnav"
+    return f"{message.rstrip('.')}; see {path} --help"
+
+
+def main() -> None:
+    sys.exit(run())

@@ -1,1 +1,1 @@
-"""control."""
+"""From features to twists, from twists to wheels: pure functions without clock or bus."""

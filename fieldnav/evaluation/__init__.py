@@ -1,1 +1,1 @@
-"""evaluation."""
+"""What a simulated run was worth, judged by the simulation's truth."""

@@ -5,7 +5,7 @@ from typing import Annotated
 
 from pydantic import Field
 
-from fieldnav.settings.model import Settings
+from fieldnav.settings.model import FileName, Settings
 
 Fraction = Annotated[float, Field(ge=0, le=1)]
 Seconds = Annotated[float, Field(gt=0, le=60)]
@@ -93,6 +93,16 @@ class Recognition(Settings):
     confirm_frames: int = Field(default=3, ge=1, le=100)
 
 
+class Switching(Settings):
+    """The sidestep to the next lane: how far it may go and how well it must end."""
+
+    longest_sidestep_m: float = Field(default=2.5, gt=0.2, le=6)
+    centred_m: float = Field(
+        default=0.02, gt=0, le=0.2, description="the new lane counts as centred within this"
+    )
+    aligned_deg: float = Field(default=1.5, gt=0, le=10, description="and as aligned within this")
+
+
 class Speeds(Settings):
     """Working speeds; the robot's own limits hold in any case."""
 
@@ -103,17 +113,17 @@ class Speeds(Settings):
 
 
 class Servoing(Settings):
-    """Gains of the visual servoing (paper III-B), one a feature error."""
+    """How fast the visual servoing (paper III-B) brings the robot onto the lane, per metre driven."""
 
-    offset_gain: float = Field(default=1.0, gt=0, le=20)
-    heading_gain: float = Field(default=1.0, gt=0, le=20)
+    convergence_m: float = Field(default=0.7, ge=0.1, le=5, description="natural length of the closed loop")
+    damping: float = Field(default=1.0, ge=0.3, le=3)
 
 
 class CropProfile(Settings):
     """A crop at a growth stage, and how to see and follow it."""
 
-    name: str = Field(pattern=r"^[a-z][a-z0-9-]*$")
-    growth_stage: str
+    name: FileName
+    growth_stage: str = Field(min_length=1, description="in words, with the BBCH code")
     rows: Rows
     plants: Plants
     vegetation: Vegetation = Vegetation()
@@ -121,6 +131,7 @@ class CropProfile(Settings):
     tracking: Tracking = Tracking()
     row_end: RowEnd = RowEnd()
     recognition: Recognition = Recognition()
+    switching: Switching = Switching()
     speeds: Speeds = Speeds()
     servoing: Servoing = Servoing()
     tuned_for: str = Field(min_length=1, description="the range of conditions this profile was tuned for")

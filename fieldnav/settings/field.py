@@ -1,10 +1,23 @@
 """Field file: the world a simulated run happens in, and how hard it is made. Used by the simulation alone."""
 
 from enum import Enum
+from typing import Annotated
 
-from pydantic import Field
+from pydantic import AfterValidator, Field
 
-from fieldnav.settings.model import Settings
+from fieldnav.settings.model import FileName, Settings
+
+
+def _ascending(span: tuple[float, float]) -> tuple[float, float]:
+    if span[0] > span[1]:
+        raise ValueError("allowed is a smaller number first, then a larger one")
+    return span
+
+
+GapLength = Annotated[float, Field(ge=0.05, le=20)]
+WeedSize = Annotated[float, Field(ge=0.005, le=0.5)]
+Frequency = Annotated[float, Field(ge=0.05, le=20)]
+Grey = Annotated[int, Field(ge=0, le=255)]
 
 
 class Shape(Enum):
@@ -30,16 +43,16 @@ class Gaps(Settings):
 
     germination: float = Field(default=0.95, gt=0.1, le=1)
     row_gaps_per_10m: float = Field(default=0.3, ge=0, le=5, description="in one row")
-    row_gap_m: tuple[float, float] = (0.4, 1.0)
+    row_gap_m: Annotated[tuple[GapLength, GapLength], AfterValidator(_ascending)] = (0.4, 1.0)
     lane_gaps_per_10m: float = Field(default=0.0, ge=0, le=1, description="in all rows of a lane at once")
-    lane_gap_m: tuple[float, float] = (0.5, 1.0)
+    lane_gap_m: Annotated[tuple[GapLength, GapLength], AfterValidator(_ascending)] = (0.5, 1.0)
 
 
 class Weeds(Settings):
     """Plants that are not the crop."""
 
     per_m2: float = Field(default=2.0, ge=0, le=60)
-    size_m: tuple[float, float] = (0.02, 0.08)
+    size_m: Annotated[tuple[WeedSize, WeedSize], AfterValidator(_ascending)] = (0.02, 0.08)
     patches: float = Field(default=0.3, ge=0, le=1, description="share of the weeds that grow in patches")
     headland_per_m2: float = Field(default=0.3, ge=0, le=20)
 
@@ -57,7 +70,7 @@ class Light(Settings):
 class Ground(Settings):
     """Soil."""
 
-    colour_bgr: tuple[int, int, int] = (72, 96, 122)
+    colour_bgr: tuple[Grey, Grey, Grey] = (72, 96, 122)
     roughness: float = Field(default=0.5, ge=0, le=1)
     residue: float = Field(default=0.1, ge=0, le=1, description="cover of straw and stalks")
     stones: float = Field(default=0.1, ge=0, le=1)
@@ -69,7 +82,7 @@ class CameraErrors(Settings):
     """What the cameras do that their file does not say."""
 
     shake_deg: float = Field(default=1.0, ge=0, le=5, description="rms of roll and of pitch")
-    shake_hz: tuple[float, float] = (1.0, 2.0)
+    shake_hz: Annotated[tuple[Frequency, Frequency], AfterValidator(_ascending)] = (1.0, 2.0)
     bounce_m: float = Field(default=0.02, ge=0, le=0.1, description="height, plus or minus")
     tilt_error_deg: float = Field(default=1.5, ge=0, le=10, description="calibration, plus or minus")
     height_error_m: float = Field(default=0.03, ge=0, le=0.2)
@@ -100,8 +113,8 @@ class Start(Settings):
 class FieldSettings(Settings):
     """A simulated field. `mirrored` swaps left and right of the finished world."""
 
-    name: str = Field(pattern=r"^[a-z][a-z0-9-]*$")
-    crop: str
+    name: FileName
+    crop: str = Field(min_length=1, description="name of a shipped crop profile, or the path of one")
     lanes: int = Field(ge=1, le=100)
     length_m: float = Field(ge=4, le=2000)
     lane_pitch_m: float = Field(default=1.5, ge=0.5, le=5)

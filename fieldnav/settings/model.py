@@ -1,6 +1,13 @@
 """What every settings model shares: unknown keys are refused and nothing changes after loading."""
 
-from pydantic import BaseModel, ConfigDict
+from typing import Annotated
+
+from pydantic import BaseModel, ConfigDict, Field
+
+FileName = Annotated[
+    str, Field(pattern=r"^[a-z][a-z0-9-]*$", description="lower-case letters, digits and hyphens")
+]
+"""What a profile is called: fit for a file name and a folder name everywhere."""
 
 
 class Settings(BaseModel):

@@ -1,13 +1,13 @@
 """Robot file: geometry, wheel modules, cameras, bus, limits and timeouts of one machine."""
 
 from math import pi, radians, tan
-from typing import Self
+from typing import Literal, Self
 
 from pydantic import Field, model_validator
 
 from fieldnav.messages import CameraName, Wheel
 from fieldnav.pinhole import Pinhole
-from fieldnav.settings.model import Settings
+from fieldnav.settings.model import FileName, Settings
 
 
 class Geometry(Settings):
@@ -39,7 +39,7 @@ class Module(Settings):
     steering_gear: float = Field(default=42.857, ge=1, le=500)
     encoder_pulses: int = Field(default=1024, ge=1, le=100000)
     steering_limit_rad: float = Field(default=3.078, gt=0.1, le=6.3)
-    drive_direction: int = Field(default=1, ge=-1, le=1)
+    drive_direction: Literal[-1, 1] = 1
     home_count: int = Field(default=0, ge=-(2**31), le=2**31 - 1)
 
     @property
@@ -114,7 +114,7 @@ class Timeouts(Settings):
 class Robot(Settings):
     """One machine."""
 
-    name: str = Field(pattern=r"^[a-z][a-z0-9-]*$")
+    name: FileName
     geometry: Geometry
     modules: dict[Wheel, Module]
     cameras: Cameras

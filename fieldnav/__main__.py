@@ -1,0 +1,5 @@
+"""`python -m fieldnav`."""
+
+from fieldnav.cli.app import main
+
+main()

@@ -1,0 +1,6 @@
+"""fieldnav detect."""
+
+
+def detect() -> None:
+    """Find crop rows in pictures."""
+    raise NotImplementedError

@@ -1,0 +1,115 @@
+"""A run's directory: one folder a run, named by its time and what was driven, and what lies where in it."""
+
+from dataclasses import dataclass
+from datetime import UTC, datetime
+from pathlib import Path
+from typing import Self
+
+from fieldnav.errors import FieldnavError, OutputError
+
+MOST_RUNS_A_SECOND = 1000
+"""Runs of one name that may start within a second before something else must be wrong."""
+
+
+@dataclass(frozen=True, slots=True)
+class RunDirectory:
+    """The paths of one run's files; making this object touches nothing, `create` makes the folder."""
+
+    path: Path
+
+    @classmethod
+    def create(cls, parent: Path, name: str, utc: datetime) -> Self:
+        """Make `parent`/<UTC time>-`name`/, never one that exists. Raises OutputError, leaving nothing."""
+        stem = f"{utc.astimezone(UTC):%Y%m%dT%H%M%SZ}-{name}"
+        made = _make_folders(parent)
+        for attempt in range(1, MOST_RUNS_A_SECOND):
+            path = parent / (stem if attempt == 1 else f"{stem}-{attempt}")
+            try:
+                path.mkdir()
+            except FileExistsError:
+                continue
+            except OSError as error:
+                _remove(made)
+                raise _unwritable(parent, error) from error
+            return cls(path)
+        raise OutputError(f"{parent}: holds {MOST_RUNS_A_SECOND} runs named {stem} already")
+
+    @property
+    def journal(self) -> Path:
+        return self.path / "journal.jsonl"
+
+    @property
+    def summary(self) -> Path:
+        return self.path / "summary.json"
+
+    @property
+    def settings(self) -> Path:
+        return self.path / "settings.yaml"
+
+    @property
+    def can_log(self) -> Path:
+        return self.path / "can.log"
+
+    @property
+    def map(self) -> Path:
+        return self.path / "map.png"
+
+    @property
+    def overlay(self) -> Path:
+        return self.path / "overlay.mp4"
+
+
+def runs_in(parent: Path) -> list[RunDirectory]:
+    """The runs below a folder, newest first; none when there is no such folder."""
+    if not parent.is_dir():
+        return []
+    runs = [RunDirectory(path) for path in parent.iterdir() if path.is_dir()]
+    return sorted((run for run in runs if run.journal.exists()), key=lambda run: run.path.name, reverse=True)
+
+
+def find_run(name_or_path: str, parent: Path) -> RunDirectory:
+    """The run that 'last', a name, a part of one name only, or a path stands for. Raises FieldnavError."""
+    runs = runs_in(parent)
+    if name_or_path == "last":
+        if not runs:
+            raise FieldnavError(f"{parent}: holds no runs; allowed is the path of a run's directory")
+        return runs[0]
+    given = RunDirectory(Path(name_or_path))
+    if given.journal.exists():
+        return given
+    named = [run for run in runs if run.path.name == name_or_path]
+    matching = named or [run for run in runs if name_or_path and name_or_path in run.path.name]
+    if len(matching) == 1:
+        return matching[0]
+    if matching:
+        raise FieldnavError(
+            f"run '{name_or_path}' fits {', '.join(run.path.name for run in matching)}; give more of it"
+        )
+    raise FieldnavError(
+        f"no run '{name_or_path}' in {parent}; allowed is last, a name of `fieldnav log list`, or a path"
+    )
+
+
+def _make_folders(parent: Path) -> list[Path]:
+    """Make `parent` and what lacks above it; returns what was made, deepest first."""
+    made: list[Path] = []
+    lacking = [folder for folder in (parent, *parent.parents) if not folder.exists()]
+    for folder in reversed(lacking):
+        try:
+            folder.mkdir(exist_ok=True)
+        except OSError as error:
+            _remove(made)
+            raise _unwritable(parent, error) from error
+        made.insert(0, folder)
+    return made
+
+
+def _remove(folders: list[Path]) -> None:
+    for folder in folders:
+        folder.rmdir()
+
+
+def _unwritable(parent: Path, error: OSError) -> OutputError:
+    return OutputError(
+        f"{parent}: no run directory can be made here: {error.strerror}; allowed is a folder you can write"
+    )

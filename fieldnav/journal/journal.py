@@ -1,0 +1,99 @@
+"""The journal: one JSON line a transition or notable event, on the disk before the wheels obey."""
+
+import json
+import os
+from datetime import datetime
+from pathlib import Path
+from types import TracebackType
+from typing import Self
+
+from pydantic import ValidationError
+
+from fieldnav.errors import FieldnavError, OutputError
+from fieldnav.journal.entry import Entry, Line, line_of
+
+
+class Journal:
+    """Appends entries to a file; an existing journal is continued after its last whole line.
+
+    Raises OutputError when the file cannot be written.
+    """
+
+    def __init__(self, path: Path, start_utc: datetime) -> None:
+        self._path = path
+        self._start_utc = start_utc
+        try:
+            self._sequence = _repair(path)
+            self._file = path.open("ab")
+            _sync_folder(path.parent)
+        except OSError as error:
+            raise _unwritable(path, error) from error
+
+    def record(self, entry: Entry) -> None:
+        """Append one line; on return it is flushed and synced to the disk."""
+        text = json.dumps(line_of(entry, self._sequence, self._start_utc), allow_nan=False)
+        try:
+            self._file.write(text.encode() + b"\n")
+            self._file.flush()
+            os.fsync(self._file.fileno())
+        except OSError as error:
+            raise _unwritable(self._path, error) from error
+        self._sequence += 1
+
+    def close(self) -> None:
+        self._file.close()
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        self.close()
+
+
+def read(path: Path) -> list[Line]:
+    """The lines of a journal; a last line torn by power loss is left out.
+
+    Raises FieldnavError when the file cannot be read or another line is none of a journal's.
+    """
+    try:
+        content = path.read_bytes()
+    except OSError as error:
+        raise FieldnavError(f"{path}: cannot be read: {error.strerror}") from error
+    texts = content.splitlines(keepends=True)
+    lines = []
+    for number, text in enumerate(texts, start=1):
+        if not text.endswith(b"\n"):
+            break
+        try:
+            lines.append(Line.model_validate_json(text))
+        except ValidationError as error:
+            if number == len(texts):
+                break
+            raise FieldnavError(f"{path}: line {number} is not a line of a journal") from error
+    return lines
+
+
+def _repair(path: Path) -> int:
+    """Cut a torn last line off; returns the next sequence number. What was torn was never acted on."""
+    if not path.exists():
+        return 0
+    with path.open("r+b") as file:
+        content = file.read()
+        file.truncate(content.rfind(b"\n") + 1)
+    lines = read(path)
+    return lines[-1].seq + 1 if lines else 0
+
+
+def _sync_folder(folder: Path) -> None:
+    """Sync a folder, so that the new file's name outlives a power loss too."""
+    descriptor = os.open(folder, os.O_RDONLY)
+    try:
+        os.fsync(descriptor)
+    finally:
+        os.close(descriptor)
+
+
+def _unwritable(path: Path, error: OSError) -> OutputError:
+    return OutputError(f"{path}: cannot be written: {error.strerror}")

@@ -1,0 +1,61 @@
+"""How a run ended, as far as its directory tells; also when the power went before it could say."""
+
+from enum import Enum
+
+from pydantic import BaseModel, ConfigDict
+
+from fieldnav.errors import FieldnavError
+from fieldnav.journal.directory import RunDirectory
+from fieldnav.journal.entry import Line
+from fieldnav.journal.journal import read
+from fieldnav.journal.summary import Summary, read_summary
+
+
+class Outcome(Enum):
+    FINISHED = "finished"
+    STOPPED = "stopped"
+    BROKEN_OFF = "broken off"
+    UNREADABLE = "unreadable"
+
+
+class Overview(BaseModel):
+    """One run in a line: how and where it ended, and its figures if they were written."""
+
+    model_config = ConfigDict(frozen=True)
+
+    run: str
+    path: str
+    outcome: Outcome
+    last_state: str = ""
+    reason: str = ""
+    seconds: float = 0.0
+    summary: Summary | None = None
+
+
+def overview(directory: RunDirectory) -> Overview:
+    """A run's overview; never raises, an unreadable run is one of the outcomes."""
+    name, path = directory.path.name, str(directory.path)
+    try:
+        lines, summary = read(directory.journal), read_summary(directory.summary)
+    except FieldnavError as error:
+        return Overview(run=name, path=path, outcome=Outcome.UNREADABLE, reason=str(error))
+    last = lines[-1] if lines else None
+    return Overview(
+        run=name,
+        path=path,
+        outcome=_outcome(summary),
+        last_state=last.target if last else "",
+        reason=_reason(last) if last and not (summary and summary.completed) else "",
+        seconds=last.stamp_s if last else 0.0,
+        summary=summary,
+    )
+
+
+def _outcome(summary: Summary | None) -> Outcome:
+    if summary is None:
+        return Outcome.BROKEN_OFF
+    return Outcome.FINISHED if summary.completed else Outcome.STOPPED
+
+
+def _reason(last: Line) -> str:
+    return last.reason or last.event

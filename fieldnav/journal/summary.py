@@ -1,0 +1,97 @@
+"""summary.json: a run in figures."""
+
+from pathlib import Path
+
+from pydantic import BaseModel, ConfigDict, ValidationError
+
+from fieldnav.errors import FieldnavError
+from fieldnav.journal.files import write_atomically
+
+
+class _Figures(BaseModel):
+    """Frozen; a figure that is not a number is written as null."""
+
+    model_config = ConfigDict(frozen=True, ser_json_inf_nan="null")
+
+
+class Lanes(_Figures):
+    done: int
+    total: int
+
+
+class Switches(_Figures):
+    attempted: int
+    succeeded: int
+
+
+class Headland(_Figures):
+    """Empty space used beyond the row ends; None before the first switch."""
+
+    mean: float | None = None
+    max: float | None = None
+
+
+class CrossTrack(_Figures):
+    """Distance of the robot's centre from the lane's centre line."""
+
+    mean: float | None
+    std: float | None
+    p95: float | None
+    max: float | None
+
+
+class Heading(_Figures):
+    """Angle between the robot and the lane."""
+
+    mean: float | None
+    std: float | None
+    max: float | None
+
+
+class Truth(_Figures):
+    """What only a simulation knows."""
+
+    cross_track_cm: CrossTrack
+    heading_deg: Heading
+    crop_plants_run_over: int
+    lanes_missed: int
+    lanes_repeated: int
+
+
+class Summary(_Figures):
+    """A run's figures; `truth` in simulation only."""
+
+    completed: bool
+    lanes: Lanes
+    distance_m: float
+    duration_s: float
+    wall_s: float
+    realtime_factor: float
+    transitions: int
+    faults: int
+    switches: Switches
+    headland_m: Headland = Headland()
+    truth: Truth | None = None
+
+
+def to_json(summary: Summary) -> str:
+    """A summary as indented JSON; `truth` is left out where there is none."""
+    exclude = {"truth"} if summary.truth is None else None
+    return summary.model_dump_json(indent=2, exclude=exclude)
+
+
+def write_summary(path: Path, summary: Summary) -> None:
+    """Write the whole file or nothing. Raises OutputError."""
+    write_atomically(path, f"{to_json(summary)}\n".encode())
+
+
+def read_summary(path: Path) -> Summary | None:
+    """A run's figures; None when it ended before they were written. Raises FieldnavError."""
+    try:
+        return Summary.model_validate_json(path.read_bytes())
+    except FileNotFoundError:
+        return None
+    except OSError as error:
+        raise FieldnavError(f"{path}: cannot be read: {error.strerror}") from error
+    except ValidationError as error:
+        raise FieldnavError(f"{path}: is not the summary of a run") from error

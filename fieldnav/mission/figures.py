@@ -1,0 +1,51 @@
+"""The figures of a run, counted as it goes."""
+
+from collections import Counter
+from itertools import pairwise
+
+from fieldnav.journal.summary import Headland, Lanes, Summary, Switches, Truth
+from fieldnav.mission.loop import Tick
+from states.names import Event
+from states.table import FINISHED
+
+SECONDS_DIGITS, METRES_DIGITS = 2, 3
+
+
+class Figures:
+    """Watches a mission and sums it up."""
+
+    def __init__(self, lanes: int) -> None:
+        self._lanes = lanes
+        self._events: Counter[Event] = Counter()
+        self._path: list[tuple[float, float]] = []
+        self._started_s: float | None = None
+        self._now_s = 0.0
+        self._finished = False
+
+    def watch(self, tick: Tick) -> None:
+        if self._started_s is None:
+            self._started_s = tick.now_s
+        self._now_s = tick.now_s
+        self._path.append((tick.forward_m, tick.sideways_m))
+        if tick.change is not None:
+            self._events[tick.change.event] += 1
+            self._finished = tick.change.target == FINISHED
+
+    def summary(self, wall_s: float, headland: Headland, truth: Truth | None) -> Summary:
+        """The figures so far."""
+        events = self._events
+        duration_s = self._now_s - (self._started_s or 0.0)
+        distance_m = sum(abs(b[0] - a[0]) + abs(b[1] - a[1]) for a, b in pairwise(self._path))
+        return Summary(
+            completed=self._finished,
+            lanes=Lanes(done=events[Event.LANE_LEFT] + events[Event.LAST_LANE_LEFT], total=self._lanes),
+            distance_m=round(distance_m, METRES_DIGITS),
+            duration_s=round(duration_s, SECONDS_DIGITS),
+            wall_s=round(wall_s, SECONDS_DIGITS),
+            realtime_factor=round(duration_s / wall_s, SECONDS_DIGITS),
+            transitions=events.total(),
+            faults=events[Event.FAIL] + events[Event.LATCH],
+            switches=Switches(attempted=events[Event.LANE_LEFT], succeeded=events[Event.LANE_CENTRED]),
+            headland_m=headland,
+            truth=truth,
+        )

@@ -1,0 +1,72 @@
+"""Which plants belong to the lane's rows, and how far ahead the rows reach (paper III-A.3)."""
+
+from enum import Enum
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fieldnav.messages import Centres, Floats, RowLine
+from fieldnav.perception.canopy import canopy_plane
+from fieldnav.perception.comb_fit import members
+from fieldnav.perception.follow import comb_of, widest_m
+from fieldnav.perception.ground_plants import on_ground
+from fieldnav.pinhole import Pinhole
+from fieldnav.settings.crop import CropProfile
+
+
+class ImagePart(Enum):
+    """A part of the image: the far half, the near half, or all of it."""
+
+    TOP = "top"
+    BOTTOM = "bottom"
+    WHOLE = "whole"
+
+
+def centres_in_rows(
+    centres: Centres,
+    rows: tuple[RowLine, ...],
+    crop: CropProfile,
+    camera: Pinhole,
+    part: ImagePart = ImagePart.WHOLE,
+) -> NDArray[np.bool_]:
+    """Which plants have their centre in a row's parallelogram and in that part of the image; shape (n,)."""
+    comb = comb_of(rows, crop, canopy_plane(camera, crop))
+    belongs = members(comb, on_ground(centres, crop, camera), widest_m(crop)) >= 0
+    y = centres.position_px[:, 1]
+    if part is ImagePart.TOP:
+        return np.asarray(belongs & (y < camera.centre_y_px))
+    if part is ImagePart.BOTTOM:
+        return np.asarray(belongs & (y >= camera.centre_y_px))
+    return np.asarray(belongs)
+
+
+def crop_stretch_m(
+    centres: Centres, rows: tuple[RowLine, ...], crop: CropProfile, camera: Pinhole
+) -> tuple[float, float] | None:
+    """Distance from the robot's centre to the nearest and the farthest plant of the rows; None without any.
+
+    In the direction the camera looks.
+    """
+    ahead = _ahead_m(centres, rows, crop, camera)
+    return (float(ahead.min()), float(ahead.max())) if len(ahead) else None
+
+
+def nearest_crop_m(
+    centres: Centres, rows: tuple[RowLine, ...], crop: CropProfile, camera: Pinhole
+) -> float | None:
+    """Distance from the robot's centre to the nearest plant of the rows; None without any."""
+    stretch = crop_stretch_m(centres, rows, crop, camera)
+    return None if stretch is None else stretch[0]
+
+
+def farthest_crop_m(
+    centres: Centres, rows: tuple[RowLine, ...], crop: CropProfile, camera: Pinhole
+) -> float | None:
+    """Distance from the robot's centre to the farthest plant of the rows; None without any."""
+    stretch = crop_stretch_m(centres, rows, crop, camera)
+    return None if stretch is None else stretch[1]
+
+
+def _ahead_m(centres: Centres, rows: tuple[RowLine, ...], crop: CropProfile, camera: Pinhole) -> Floats:
+    belongs = centres_in_rows(centres, rows, crop, camera)
+    return np.asarray(canopy_plane(camera, crop).to_ground(centres.position_px[belongs])[:, 0])

@@ -1,0 +1,109 @@
+"""Rows just found, fitted to the plants along them, and judged by them."""
+
+from math import log
+
+import numpy as np
+
+from fieldnav.messages import RowLine
+from fieldnav.perception.canopy import canopy_plane
+from fieldnav.perception.comb_fit import Comb, fit, members
+from fieldnav.perception.comb_search import support
+from fieldnav.perception.follow import Followed, follow, scatter_m, widest_m
+from fieldnav.perception.ground_plants import GroundPlants
+from fieldnav.perception.lane import LEAST_SHARE, LaneFit, comb_m, widest_offset
+from fieldnav.pinhole import Pinhole
+from fieldnav.settings.crop import CropProfile
+
+ROUNDS = 2  # of fitting a fresh lane
+CLEARLY_BETTER = 1.15  # a comb elsewhere is taken over the lines' when it scores so many times more
+EVIDENCE = 4.0  # natural logarithm of how much likelier rows are than plants strewn about, with lines found
+EVIDENCE_WITHOUT_LINES = 8.0  # and without
+CERTAIN = 0.99
+LINE_OFFSET_PRIOR_M = 0.05  # standard deviation of a found line's distance from its row
+
+
+def settle(
+    lane: LaneFit | None,
+    plants: GroundPlants,
+    crop: CropProfile,
+    camera: Pinhole,
+    widest_offset_m: float | None = None,
+) -> LaneFit | None:
+    """The lane that lines showed, or a better one near it, fitted to the plants along its rows.
+
+    None when fewer than half its rows have plants, or when plants strewn about would look the same.
+    """
+    if not len(plants):
+        return None
+    plane = canopy_plane(camera, crop)
+    near_m, far_m = plane.view_m
+    about_m = (near_m + far_m) / 2
+    place = comb_m(crop)
+    scores = support(plants, place, about_m, near_m, widest_offset(crop, widest_offset_m))
+    offset, slope, best = scores.best()
+    if lane is not None:
+        middle = lane.offset_m + lane.slope * about_m
+        if scores.near(middle, lane.slope) * CLEARLY_BETTER >= best:
+            offset, slope = middle, lane.slope
+    followed = follow(Comb(offset, slope, place, np.zeros(len(place)), about_m), plants, crop)
+    for _ in range(ROUNDS - 1):
+        followed = follow(followed.comb, plants, crop)
+    enough = followed.seen.sum() >= max(1, LEAST_SHARE * len(place))
+    asked = EVIDENCE if lane is not None else EVIDENCE_WITHOUT_LINES
+    if not enough or evidence(followed.comb, plants, crop, plane) < asked:
+        return None
+    return _lane(followed, crop, plane)
+
+
+def evidence(comb: Comb, plants: GroundPlants, crop: CropProfile, plane: Pinhole) -> float:
+    """How much likelier the plants are on rows than strewn about the view, as a natural logarithm.
+
+    Chernoff's bound for the share of the plants that stands inside the parallelograms by chance.
+    """
+    inside = members(comb, plants, widest_m(crop)) >= 0
+    effective = plants.weight.sum() ** 2 / (plants.weight**2).sum()
+    share = float(plants.weight[inside].sum() / plants.weight.sum())
+    view = plane.width_px / plane.pixels_per_metre(plane.centre_y_px)
+    width = 2 * np.minimum(plants.half_width_m, widest_m(crop)).mean() * len(comb.place_m)
+    chance = float(min(width / view, CERTAIN))
+    if share <= chance:
+        return 0.0
+    outside = (1 - share) * log((1 - share) / (1 - chance)) if share < 1 else 0.0
+    return float(effective * (share * log(share / chance) + outside))
+
+
+def settle_lines(
+    lines: tuple[RowLine, ...],
+    heading: float | None,
+    plants: GroundPlants,
+    crop: CropProfile,
+    camera: Pinhole,
+) -> tuple[RowLine, ...]:
+    """Every line found, fitted to the plants along it and turned towards the common heading, left to right.
+
+    heading: slope of the lane on the ground, where known; else the lines' own average.
+    """
+    if not lines or not len(plants):
+        return lines
+    plane = canopy_plane(camera, crop)
+    about_m = sum(plane.view_m) / 2
+    offset, slope = np.array([plane.row_on_ground(line) for line in lines]).T
+    confidence = np.array([line.confidence for line in lines])
+    common = float(np.average(slope, weights=confidence)) if heading is None else heading
+    middle = offset + slope * about_m
+    comb = Comb(0.0, common, middle, np.zeros(len(lines)), about_m)
+    for _ in range(ROUNDS):
+        row = members(comb, plants, widest_m(crop))
+        comb = fit(comb, plants, row, scatter_m(crop), LINE_OFFSET_PRIOR_M)
+    return tuple(sorted(comb.in_image(confidence, plane), key=lambda line: line.x_top_px + line.x_bottom_px))
+
+
+def _lane(followed: Followed, crop: CropProfile, plane: Pinhole) -> LaneFit:
+    comb, place = followed.comb, comb_m(crop)
+    which = np.flatnonzero(followed.seen)
+    spacing = -float(np.polyfit(which, comb.place_m[which], 1)[0]) if len(which) > 1 else float("nan")
+    off = (comb.place_m - place)[which]
+    misfit = float(np.sqrt(np.mean((off - off.mean()) ** 2)))
+    rows = comb.in_image(followed.confidence(crop), plane)
+    offset = comb.offset_m + float(np.mean(comb.place_m - place)) - comb.slope * comb.about_m
+    return LaneFit(rows, offset, comb.slope, len(which), spacing, misfit)

@@ -1,0 +1,137 @@
+"""What pydantic found wrong, said in one line: the key, its value, what is allowed."""
+
+import json
+from collections.abc import Iterator, Mapping, Sequence
+from difflib import get_close_matches
+from enum import Enum
+from typing import Any, Literal, get_args, get_origin
+
+from pydantic import BaseModel, ValidationError
+from pydantic.fields import FieldInfo
+from pydantic_core import ErrorDetails
+
+LONGEST_VALUE = 40
+"""Characters of a bad value that are quoted; the rest would bury the message."""
+
+_BOUNDS = {"ge": "at least", "gt": "more than", "le": "at most", "lt": "less than"}
+
+
+def describe(error: ValidationError, model: type[BaseModel]) -> list[str]:
+    """A line for each problem in `error`, misspelt keys first; no line is said twice."""
+    problems = error.errors()
+    unknown = [problem for problem in problems if problem["type"] == "extra_forbidden"]
+    meant = {(*problem["loc"][:-1], _meant(problem, model)) for problem in unknown}
+    rest = [problem for problem in problems if problem not in unknown and problem["loc"] not in meant]
+    return list(dict.fromkeys(_line(problem, model) for problem in [*unknown, *rest]))
+
+
+def _meant(problem: ErrorDetails, model: type[BaseModel]) -> str:
+    """The key that a misspelt one stands for; that it is missing need not be said as well."""
+    owner = _find(model, problem["loc"][:-1]).kind
+    close = get_close_matches(str(problem["loc"][-1]), list(owner.model_fields), n=1)
+    return close[0] if close else ""
+
+
+def _line(problem: ErrorDetails, model: type[BaseModel]) -> str:
+    location = [part for part in problem["loc"] if part != "[key]"]
+    key = ".".join(str(part) for part in location)
+    found, owner = _find(model, location), _find(model, location[:-1])
+    value = _quoted(problem["input"])
+    if "[key]" in problem["loc"]:
+        return f"{key}: there is no such key; {nearest(str(location[-1]), _keys(owner))}"
+    match problem["type"]:
+        case "extra_forbidden":
+            return f"{key}: {value}: there is no such key; {nearest(str(location[-1]), _keys(owner))}"
+        case "missing":
+            return f"{key}: is missing; allowed is {_allowed(found)}"
+        case "value_error" | "assertion_error":
+            reason = str(problem.get("ctx", {}).get("error", problem["msg"]))
+            return f"{key}: {value}: {reason}" if key else reason
+    return f"{key}: {value} is not allowed; allowed is {_allowed(found)}"
+
+
+def nearest(word: str, known: Sequence[str]) -> str:
+    """Advice on a word that is none of the known ones."""
+    close = get_close_matches(word.lower(), known, n=1)
+    meant = f"did you mean '{close[0]}'? " if close else ""
+    return f"{meant}known are {', '.join(known)}"
+
+
+class Found:
+    """What a dotted key stands for: its type, its bounds and what it is."""
+
+    def __init__(self, kind: Any, constraints: Sequence[Any] = (), description: str | None = None) -> None:
+        while hasattr(kind, "__metadata__"):
+            constraints = [*constraints, *_flattened(kind.__metadata__)]
+            kind = get_args(kind)[0]
+        self.kind, self.constraints, self.description = kind, list(constraints), description
+
+    def child(self, part: int | str) -> "Found":
+        if _is_model(self.kind):
+            fields: Mapping[str, FieldInfo] = self.kind.model_fields
+            field = fields.get(str(part))
+            return Found(field.annotation, field.metadata, field.description) if field else Found(Any)
+        arguments = get_args(self.kind)
+        if get_origin(self.kind) is dict:
+            return Found(arguments[1])
+        if get_origin(self.kind) is tuple and isinstance(part, int) and part < len(arguments):
+            return Found(arguments[part])
+        return Found(Any)
+
+
+def _find(model: type[BaseModel], location: Sequence[int | str]) -> Found:
+    found = Found(model)
+    for part in location:
+        found = found.child(part)
+    return found
+
+
+def _flattened(metadata: Sequence[Any]) -> Iterator[Any]:
+    for item in metadata:
+        yield from item.metadata if isinstance(item, FieldInfo) else [item]
+
+
+def _allowed(found: Found) -> str:
+    described = f" ({found.description})" if found.description else ""
+    return f"{_kind(found)}{described}"
+
+
+def _keys(found: Found) -> list[str]:
+    """The keys that a group may hold."""
+    if _is_model(found.kind):
+        return list(found.kind.model_fields)
+    if get_origin(found.kind) is dict:
+        return [str(member.value) for member in get_args(found.kind)[0]]
+    return []
+
+
+def _kind(found: Found) -> str:
+    kind = found.kind
+    if keys := _keys(found):
+        return f"a group of the keys {', '.join(keys)}"
+    if isinstance(kind, type) and issubclass(kind, Enum):
+        return " or ".join(str(member.value) for member in kind)
+    if get_origin(kind) is Literal:
+        return " or ".join(str(value) for value in get_args(kind))
+    if get_origin(kind) is tuple:
+        return f"[{', '.join(_kind(Found(argument)) for argument in get_args(kind))}]"
+    names = {float: "a number", int: "a whole number", bool: "true or false", str: "text"}
+    return " ".join([names.get(kind, "another value"), *_limits(found)])
+
+
+def _limits(found: Found) -> list[str]:
+    values = {
+        name: getattr(item, name) for item in found.constraints for name in _BOUNDS if hasattr(item, name)
+    }
+    if "ge" in values and "le" in values:
+        return [f"from {values['ge']:g} to {values['le']:g}"]
+    return [" and ".join(f"{_BOUNDS[name]} {value:g}" for name, value in values.items())] if values else []
+
+
+def _is_model(kind: Any) -> bool:
+    return isinstance(kind, type) and issubclass(kind, BaseModel)
+
+
+def _quoted(value: object) -> str:
+    text = f"'{value}'" if isinstance(value, str) else json.dumps(value, default=str)
+    return text if len(text) <= LONGEST_VALUE else f"{text[:LONGEST_VALUE]}..."

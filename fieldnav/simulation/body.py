@@ -1,0 +1,51 @@
+"""How the robot's body moves on soil when its wheels turn: the simulation's ground truth of motion."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from math import cos, sin
+
+import numpy as np
+
+from fieldnav.messages import Twist, Wheel, WheelSetpoint
+from fieldnav.settings.robot import Geometry
+
+SCRUB = 0.8
+"""Sideways stiffness of a wheel on loose soil against its rolling one; the driver takes them for alike."""
+
+
+@dataclass(frozen=True, slots=True)
+class Pose:
+    """Where the robot's centre is in the world: x along the first lane, y to the left, heading counter-clockwise."""
+
+    x_m: float
+    y_m: float
+    heading_rad: float
+
+    def moved(self, twist: Twist, dt_s: float) -> "Pose":
+        """The pose after driving a constant twist; exact to second order by turning half way first."""
+        turn = twist.yaw_rate_rps * dt_s
+        heading = self.heading_rad + turn / 2
+        ahead, left = twist.vx_mps * dt_s, twist.vy_mps * dt_s
+        return Pose(
+            self.x_m + ahead * cos(heading) - left * sin(heading),
+            self.y_m + ahead * sin(heading) + left * cos(heading),
+            self.heading_rad + turn,
+        )
+
+
+def body_motion(wheels: Mapping[Wheel, WheelSetpoint], geometry: Geometry, slip: float) -> Twist:
+    """Twist of the body that its wheels' rolling and their unwillingness to slide sideways agree on best.
+
+    Weighted least squares of two equations a wheel: along it the rim speed less the slip, across it nothing.
+    """
+    rows, wanted = [], []
+    for wheel, state in wheels.items():
+        x, y = geometry.position_m(wheel)
+        c, s = cos(state.steering_rad), sin(state.steering_rad)
+        rows.append([c, s, x * s - y * c])
+        wanted.append(state.speed_mps * (1 - slip))
+        rows.append([-s * SCRUB, c * SCRUB, (x * c + y * s) * SCRUB])
+        wanted.append(0.0)
+    equations = np.array(rows)
+    vx, vy, yaw = np.linalg.solve(equations.T @ equations, equations.T @ np.array(wanted))
+    return Twist(float(vx), float(vy), float(yaw))

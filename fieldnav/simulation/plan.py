@@ -1,0 +1,119 @@
+"""The plan of a simulated field: where every row runs and every plant stands. The simulation's ground truth."""
+
+from dataclasses import dataclass
+from math import pi
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+from scipy.spatial import cKDTree
+
+from fieldnav.errors import SettingsError
+from fieldnav.messages import Floats, Side
+from fieldnav.settings.crop import CropProfile
+from fieldnav.settings.field import FieldSettings, Shape
+from fieldnav.simulation.centreline import Centreline
+from fieldnav.simulation.plants import CROP_SPECIES, WEED_SPECIES
+from fieldnav.simulation.rowlines import RowLines, draw_rows
+from fieldnav.simulation.sowing import sow_crop
+from fieldnav.simulation.stand import Stand
+from fieldnav.simulation.weeding import grow_weeds
+
+WIDEST_BEND = 0.8  # share of the radius that the lanes may take up before the inner ones fold
+STEEPEST_SWING_RAD = pi / 2  # past this a bend would run back across the field
+
+
+@dataclass(frozen=True, slots=True)
+class FieldPlan:
+    """A sown field.
+
+    s_first_m, s_last_m: shape (lanes, rows), s of each row's first and last plant;
+    species: names that the plants' species index, the crop first.
+    """
+
+    centreline: Centreline
+    rows: RowLines
+    plants: Stand
+    s_first_m: Floats
+    s_last_m: Floats
+    species: tuple[str, ...]
+    mirrored: bool
+    tree: cKDTree
+
+    @property
+    def lanes(self) -> int:
+        return len(self.rows.lane_n_m)
+
+    @property
+    def rows_per_lane(self) -> int:
+        return self.rows.row_n_m.shape[1]
+
+    def plants_near(self, xy: ArrayLike, radius_m: float) -> NDArray[np.int64]:
+        """Indices of the plants whose stems stand within `radius_m` of a world point (2,), in order."""
+        return np.array(sorted(self.tree.query_ball_point(np.asarray(xy), radius_m)), dtype=np.int64)
+
+    def in_lane(self, lane: int, xy: ArrayLike) -> tuple[Floats, Floats, Floats]:
+        """(s, offset, heading) of world points (..., 2) against the middle of a lane's rows.
+
+        The offset is positive to the left of it; the heading is the rows' direction there, in the world.
+        """
+        s, n, heading = self.centreline.project(xy)
+        step = self.rows.s_m[1] - self.rows.s_m[0]
+        rise = self.rows.lane_n(lane, s + step) - self.rows.lane_n(lane, s - step)
+        stretch = 1 - n * self.centreline.curvature(s)
+        return s, n - self.rows.lane_n(lane, s), heading + np.arctan2(rise, 2 * step * stretch)
+
+
+def sow(field: FieldSettings, crop: CropProfile, side: Side) -> FieldPlan:
+    """Sow a field whose lanes follow each other on the given side; the same seed gives the same plants.
+
+    Lane k runs parallel to lane 0 at k times the lane pitch. A mirrored field is the exact mirror image of
+    the plain field that is sown to the other side.
+
+    Raises SettingsError for a crop that cannot be drawn and for bends too tight for the lanes.
+    """
+    line = _centreline(field)
+    rows = draw_rows(field, crop, -side.sign if field.mirrored else side.sign)
+    plants = Stand.joined(
+        [sow_crop(field, crop, line, rows), grow_weeds(field, line, rows, len(WEED_SPECIES))]
+    )
+    if field.mirrored:
+        line, rows, plants = line.mirrored(), rows.mirrored(), plants.mirrored(crop.rows.per_lane)
+    return FieldPlan(
+        centreline=line,
+        rows=rows,
+        plants=plants,
+        s_first_m=rows.start_m,
+        s_last_m=rows.end_m,
+        species=(crop_species(crop.name), *WEED_SPECIES),
+        mirrored=field.mirrored,
+        tree=cKDTree(np.stack([plants.x_m, plants.y_m], axis=-1)),
+    )
+
+
+def crop_species(name: str) -> str:
+    """The species to draw for a crop profile: the one whose name the profile's begins with."""
+    for species in CROP_SPECIES:
+        if name.startswith(species):
+            return species
+    raise SettingsError(
+        f"crop {name}: the simulation cannot draw it; its name must begin with one of {', '.join(CROP_SPECIES)}"
+    )
+
+
+def _centreline(field: FieldSettings) -> Centreline:
+    rows = field.rows
+    if rows.shape is Shape.STRAIGHT:
+        return Centreline(field.length_m)
+    widest_m = WIDEST_BEND * rows.radius_m
+    if field.lanes * field.lane_pitch_m > widest_m:
+        raise SettingsError(
+            f"field {field.name}: lanes: {field.lanes} lanes of {field.lane_pitch_m} m do not fit a bend of "
+            f"rows.radius_m {rows.radius_m}; at most {int(widest_m / field.lane_pitch_m)} lanes do"
+        )
+    longest_m = STEEPEST_SWING_RAD * pi * rows.radius_m
+    if rows.wavelength_m > longest_m:
+        raise SettingsError(
+            f"field {field.name}: rows.wavelength_m: {rows.wavelength_m} is too long for rows.radius_m "
+            f"{rows.radius_m}; at most {longest_m:.0f} m"
+        )
+    return Centreline(field.length_m, 1 / rows.radius_m, rows.wavelength_m)

@@ -1,0 +1,1 @@
+"""Pictures of the simulated field: light, ground, foliage and colours, composed by the renderer."""

@@ -1,0 +1,125 @@
+"""Leaves of the field's plants as arrays in the world, put together cell by cell and kept while in use."""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fieldnav.simulation.rendering.cells import CELL_M, Block, Kept
+from fieldnav.simulation.rendering.light import Lighting
+from fieldnav.simulation.rendering.models import Models, padded
+from fieldnav.simulation.rendering.palette import Band
+from fieldnav.simulation.stand import Stand
+
+Reals = NDArray[np.float32]
+
+CELLS_KEPT = 1500
+BLOCKS_KEPT = 4  # two cameras, each on the border of two blocks
+
+
+@dataclass(frozen=True, slots=True)
+class Leaves:
+    """Leaves of neighbouring plants, plant by plant, each plant's in the order of painting.
+
+    outline: shape (n, v, 3), metres from `origin`; centre: (n, 3), middle of the outline; reach: (n,), metres
+    from there to the farthest vertex; colour: (n,), numbers of colours; plant: (n,), index into the next two;
+    top: (plants, 3), the plants' tops; sway_rad: (plants,). origin: world x and y.
+    """
+
+    outline: Reals
+    centre: Reals
+    reach: Reals
+    colour: NDArray[np.uint8]
+    plant: NDArray[np.int32]
+    top: Reals
+    sway_rad: Reals
+    origin: tuple[float, float]
+
+
+class Foliage:
+    """The leaves that grow in any block of cells."""
+
+    def __init__(self, stand: Stand, models: Models, bands: list[Band], lighting: Lighting) -> None:
+        self._stand = stand
+        self._models = models
+        self._bands = bands
+        self._lighting = lighting
+        cell = np.floor(np.stack([stand.x_m, stand.y_m], axis=-1) / CELL_M).astype(int)
+        order = np.lexsort((np.arange(len(cell)), cell[:, 1], cell[:, 0]))
+        places, starts = np.unique(cell[order], axis=0, return_index=True)
+        parts = np.split(order, starts[1:])
+        self._rooted = {(int(x), int(y)): part for (x, y), part in zip(places, parts, strict=True)}
+        self._cells = Kept(self._grow_cell, CELLS_KEPT)
+        self._blocks = Kept(self._join_block, BLOCKS_KEPT)
+        self.tallest_m = float(stand.height_m.max(initial=0.0))
+        self.widest_m = float(stand.diameter_m.max(initial=0.0))
+
+    def within(self, block: Block) -> Leaves:
+        """Leaves of all plants rooted in a block of cells."""
+        return self._blocks[block]
+
+    def gather(self, cells: list[tuple[int, int]], origin: tuple[float, float]) -> Leaves:
+        """Leaves of all plants rooted in the given cells, in metres from `origin`."""
+        parts = [self._cells[cell] for cell in cells if cell in self._rooted]
+        shifts = [np.array([p.origin[0] - origin[0], p.origin[1] - origin[1], 0], np.float32) for p in parts]
+        counts = np.cumsum([0] + [len(p.top) for p in parts])
+        if not parts:
+            return _no_leaves(self._models.vertices, origin)
+        return Leaves(
+            outline=np.concatenate([p.outline + shift for p, shift in zip(parts, shifts, strict=True)]),
+            centre=np.concatenate([p.centre + shift for p, shift in zip(parts, shifts, strict=True)]),
+            reach=np.concatenate([p.reach for p in parts]),
+            colour=np.concatenate([p.colour for p in parts]),
+            plant=np.concatenate([p.plant + n for p, n in zip(parts, counts[:-1], strict=True)]),
+            top=np.concatenate([p.top + shift for p, shift in zip(parts, shifts, strict=True)]),
+            sway_rad=np.concatenate([p.sway_rad for p in parts]),
+            origin=origin,
+        )
+
+    def _join_block(self, block: Block) -> Leaves:
+        return self.gather(block.cells(), (block.first_x * CELL_M, block.first_y * CELL_M))
+
+    def _grow_cell(self, cell: tuple[int, int]) -> Leaves:
+        """The leaves of one cell's plants, in metres from the cell's corner."""
+        origin = (cell[0] * CELL_M, cell[1] * CELL_M)
+        plants = self._rooted[cell]
+        grown = [self._grow_plant(int(index), origin) for index in plants]
+        outline = np.concatenate([outline for outline, _ in grown])
+        centre = (outline.min(axis=1) + outline.max(axis=1)) / 2
+        stand = self._stand
+        top = np.stack([stand.x_m[plants] - origin[0], stand.y_m[plants] - origin[1], stand.height_m[plants]])
+        return Leaves(
+            outline=outline,
+            centre=centre,
+            reach=np.linalg.norm(outline - centre[:, None], axis=-1).max(axis=1),
+            colour=np.concatenate([colour for _, colour in grown]),
+            plant=np.repeat(np.arange(len(plants), dtype=np.int32), [len(colour) for _, colour in grown]),
+            top=top.T.astype(np.float32),
+            sway_rad=stand.sway_rad[plants].astype(np.float32),
+            origin=origin,
+        )
+
+    def _grow_plant(self, index: int, origin: tuple[float, float]) -> tuple[Reals, NDArray[np.uint8]]:
+        """Outlines and colours of one plant's leaves."""
+        stand, species = self._stand, self._stand.species[index]
+        model = self._models.variants[species][stand.variant[index]]
+        cosine, sine = np.cos(stand.heading_rad[index]), np.sin(stand.heading_rad[index])
+        turn = np.array([[cosine, sine, 0], [-sine, cosine, 0], [0, 0, 1]], np.float32)
+        size = np.array([stand.diameter_m[index], stand.diameter_m[index], stand.height_m[index]], np.float32)
+        foot = np.array([stand.x_m[index] - origin[0], stand.y_m[index] - origin[1], 0], np.float32)
+        brightness = self._lighting.on_leaves(model.normals @ turn, model.leaves[..., 2].mean(axis=1))
+        outline = padded(model.leaves, self._models.vertices) @ turn * size + foot
+        return outline, self._bands[species].pick(model.tone, brightness)
+
+
+def _no_leaves(vertices: int, origin: tuple[float, float]) -> Leaves:
+    return Leaves(
+        outline=np.zeros((0, vertices, 3), np.float32),
+        centre=np.zeros((0, 3), np.float32),
+        reach=np.zeros(0, np.float32),
+        colour=np.zeros(0, np.uint8),
+        plant=np.zeros(0, np.int32),
+        top=np.zeros((0, 3), np.float32),
+        sway_rad=np.zeros(0, np.float32),
+        origin=origin,
+    )

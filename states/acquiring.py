@@ -1,0 +1,57 @@
+"""Follow.Acquiring: find the lane's rows in the leading camera before following them."""
+
+from fieldnav.messages import CameraName, Direction, Evidence, Motion, Twist
+from fieldnav.perception.perceive import find
+from fieldnav.perception.tracking import start
+from states.agreement import Agreement
+from states.behaviour import Observation, Sight, Step, Task
+from states.memory import LaneMemory
+from states.names import Event
+
+AGREEING_FRAMES = 4
+STANDING_LOOK_S = 1.0
+"""A robot that stands looks this long before it creeps on for a better view."""
+CREEP_LIMIT_M = 1.0
+"""About the length of the view: what was not found by then is not there."""
+
+
+class Acquiring:
+    """Stands, then creeps straight on, until several frames agree on the lane."""
+
+    def __init__(self, task: Task, direction: Direction, lane: LaneMemory) -> None:
+        self.cameras: tuple[CameraName, ...] = (direction.leading,)
+        self._task, self._direction, self._lane = task, direction, lane
+        self._agreement = Agreement(AGREEING_FRAMES)
+        self._entered: tuple[float, float] | None = None
+        self._step = Step()
+
+    def step(self, seen: Observation) -> Step:
+        entered_s, entered_m = self._entered = self._entered or (seen.now_s, seen.forward_m)
+        frame = seen.frames.get(self._direction.leading)
+        if frame is None:
+            return self._step.continued()
+        camera = self._task.cameras[frame.camera]
+        found = find(frame.image, self._task.crop, camera)
+        crept_m = abs(seen.forward_m - entered_m)
+        evidence = (
+            self._agreement.evidence(),
+            Evidence("rows in view", len(found.lines), self._task.crop.rows.per_lane, "rows"),
+            Evidence("crept", crept_m, CREEP_LIMIT_M, "m"),
+        )
+        sight = Sight(frame, found.lane.rows if found.lane else found.lines, found.centres)
+        motion = self._creep(seen.now_s - entered_s)
+        if self._agreement.add(found.lane) and found.lane:
+            self._lane.leading = start(found.lane, frame.stamp_s)
+            self._lane.counts[len(found.lane.rows)] += 1
+            self._lane.under_way = True
+            evidence = (self._agreement.evidence(), *evidence[1:])
+            return Step(motion, Event.ROWS_FOUND, evidence, sight)
+        if crept_m > CREEP_LIMIT_M:
+            return Step(Motion(), Event.FAIL, evidence, sight, "no rows found")
+        self._step = Step(motion, None, evidence, sight)
+        return self._step
+
+    def _creep(self, looked_s: float) -> Motion:
+        if not self._lane.under_way and looked_s < STANDING_LOOK_S:
+            return Motion()
+        return Motion(Twist(vx_mps=self._direction.sign * self._task.crop.speeds.acquire_mps))

@@ -1,0 +1,76 @@
+"""Sidestep.Crossing: move sideways and count the new rows (paper III-C)."""
+
+from fieldnav.messages import CameraName, Direction, Evidence, Frame, Motion
+from fieldnav.perception.crossing import Crossing, accept, candidate_row, follow, rows_in_image
+from fieldnav.perception.perceive import find
+from fieldnav.perception.recognition import describe, distance
+from states.behaviour import Observation, Sight, Step, Task
+from states.memory import LaneMemory, SwitchMemory
+from states.names import Event
+from states.orienting import sideways
+
+HEADING_GAIN_PER_S = 0.5
+MOST_TURN_RPS = 0.05
+
+
+class CrossingRows:
+    """Counts rows whose features differ from the outermost one's, until as many have passed as the lane has."""
+
+    def __init__(self, task: Task, direction: Direction, lane: LaneMemory) -> None:
+        self.cameras: tuple[CameraName, ...] = (direction.trailing,)
+        self._task, self._direction, self._lane = task, direction, lane
+        self._step = Step(sideways(task, task.crop.speeds.sidestep_mps))
+
+    def step(self, seen: Observation) -> Step:
+        frame = seen.frames.get(self._direction.trailing)
+        switch = self._lane.switch
+        assert switch, "Orienting begins the switch"
+        moved_m = abs(seen.sideways_m - switch.started_m)
+        limit_m = self._task.crop.switching.longest_sidestep_m
+        if moved_m > limit_m:
+            evidence = (Evidence("moved sideways", moved_m, limit_m, "m"),)
+            return Step(
+                Motion(), Event.FAIL, evidence, reason="the next lane was not found within the sidestep"
+            )
+        if frame is None:
+            return self._step.continued()
+        self._step = self._count(frame, switch, moved_m)
+        return self._step
+
+    def _count(self, frame: Frame, switch: SwitchMemory, moved_m: float) -> Step:
+        crop, camera = self._task.crop, self._task.cameras[frame.camera]
+        found = find(frame.image, crop, camera)
+        assert switch.crossing, "Sampling begins the crossing"
+        rows = follow(switch.crossing, found.lines, crop, camera)
+        rows, evidence = self._recognise(frame, rows, switch)
+        switch.crossing = rows
+        wanted = self._lane.rows or crop.rows.per_lane
+        evidence = (
+            Evidence("new rows passed", rows.passed, wanted, "rows"),
+            Evidence("moved sideways", moved_m, crop.switching.longest_sidestep_m, "m"),
+            *evidence,
+        )
+        sight = Sight(frame, rows_in_image(rows, crop, camera), found.centres)
+        turn_rps = max(-MOST_TURN_RPS, min(MOST_TURN_RPS, HEADING_GAIN_PER_S * rows.slope))
+        motion = sideways(self._task, crop.speeds.sidestep_mps, turn_rps)
+        return Step(motion, Event.ROWS_CROSSED if rows.passed >= wanted else None, evidence, sight)
+
+    def _recognise(
+        self, frame: Frame, rows: Crossing, switch: SwitchMemory
+    ) -> tuple[Crossing, tuple[Evidence, ...]]:
+        """Compare the outermost candidate with the stored row; a new row becomes the stored one."""
+        crop, camera = self._task.crop, self._task.cameras[frame.camera]
+        line = candidate_row(rows, crop, camera)
+        if line is None:
+            return rows, ()
+        features = describe(frame.image, line, crop, camera, 0.0, camera.centre_y_px)
+        unlike = (
+            distance(switch.reference, features, crop.recognition.match_ratio) if switch.reference else None
+        )
+        threshold = crop.recognition.new_row_distance
+        evidence = (Evidence("distance of the outermost row's features", unlike or 0.0, threshold, ""),)
+        # Too few features to compare leaves the word to the row's place alone.
+        if unlike is not None and unlike <= threshold:
+            return rows, evidence
+        switch.reference = features
+        return accept(rows, crop), evidence

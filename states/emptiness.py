@@ -1,0 +1,30 @@
+"""The row end as a decision over time and distance (paper phases 1 and 2)."""
+
+from fieldnav.messages import Evidence
+from fieldnav.settings.crop import RowEnd
+
+
+class Emptiness:
+    """How long, and over what distance, a part of the view has held no crop."""
+
+    def __init__(self, limits: RowEnd) -> None:
+        self._limits = limits
+        self._since: tuple[float, float] | None = None
+        self.time_s = 0.0
+        self.distance_m = 0.0
+
+    def add(self, crop_centres: int, now_s: float, travelled_m: float) -> bool:
+        """Take in one frame's count of crop centres; true once the emptiness has lasted."""
+        if crop_centres:
+            self._since = None
+            self.time_s = self.distance_m = 0.0
+            return False
+        since_s, since_m = self._since = self._since or (now_s, travelled_m)
+        self.time_s, self.distance_m = now_s - since_s, abs(travelled_m - since_m)
+        return self.time_s >= self._limits.confirm_s and self.distance_m >= self._limits.confirm_m
+
+    def evidence(self, where: str) -> tuple[Evidence, ...]:
+        return (
+            Evidence(f"no crop in the {where} for", self.time_s, self._limits.confirm_s, "s"),
+            Evidence(f"no crop in the {where} over", self.distance_m, self._limits.confirm_m, "m"),
+        )

@@ -1,0 +1,103 @@
+"""Exit: drive out of the lane guided by the trailing camera (paper phase 2)."""
+
+from math import degrees
+
+from fieldnav.control.servoing import yaw_rate
+from fieldnav.messages import CameraName, Centres, Direction, Evidence, Frame, Motion, Twist
+from fieldnav.perception.parts import in_part
+from fieldnav.perception.perceive import lane_of
+from fieldnav.perception.row_end import ImagePart, centres_in_rows
+from fieldnav.perception.tracking import feature, start, track
+from fieldnav.perception.vegetation import find_plants
+from fieldnav.pinhole import Pinhole
+from states.agreement import Agreement
+from states.behaviour import Observation, Sight, Step, Task
+from states.emptiness import Emptiness
+from states.memory import LaneMemory
+from states.names import Event
+
+AGREEING_FRAMES = 2
+FRAMES_TO_RETURN = 4
+"""So many frames of the leading camera must agree that rows have come again: the end was a gap."""
+
+
+class Exiting:
+    """Steers by the trailing camera until its lower half is empty; goes back to following if rows come again."""
+
+    def __init__(self, task: Task, direction: Direction, lane: LaneMemory) -> None:
+        self.cameras: tuple[CameraName, ...] = (direction.leading, direction.trailing)
+        self._task, self._direction, self._lane = task, direction, lane
+        self._found = Agreement(AGREEING_FRAMES)
+        self._again = Agreement(FRAMES_TO_RETURN)
+        self._end = Emptiness(task.crop.row_end)
+        self._entered_m: float | None = None
+        lane.trailing = None
+        self._step = Step(self._ahead(0.0))
+
+    def step(self, seen: Observation) -> Step:
+        if self._entered_m is None:
+            self._entered_m = seen.forward_m
+        leading, trailing = (seen.frames.get(name) for name in self.cameras)
+        if leading is not None and self._rows_again(leading):
+            self._lane.under_way = True
+            reason = "rows come again: it was a gap"
+            return Step(
+                self._step.motion, Event.ROWS_SEEN_AGAIN, (self._again.evidence(),), Sight(leading), reason
+            )
+        if trailing is not None:
+            self._step = self._guided(trailing, seen, abs(seen.forward_m - self._entered_m))
+            return self._step
+        return self._step.continued()
+
+    def _rows_again(self, frame: Frame) -> bool:
+        camera = self._task.cameras[frame.camera]
+        centres, _ = find_plants(frame.image, self._task.crop.vegetation, camera)
+        lane = lane_of(in_part(centres, camera, ImagePart.TOP), self._task.crop, camera)
+        enough = lane is not None and 2 * lane.rows_seen > self._task.crop.rows.per_lane
+        return self._again.add(lane if enough else None)
+
+    def _guided(self, frame: Frame, seen: Observation, driven_m: float) -> Step:
+        crop, camera = self._task.crop, self._task.cameras[frame.camera]
+        centres, _ = find_plants(frame.image, crop.vegetation, camera)
+        self._follow(centres, frame.stamp_s, camera)
+        rows = self._lane.trailing
+        nearest_m, farthest_m = camera.view_m
+        # From the leading view's middle being empty to the trailing view's middle being so.
+        whole_m = nearest_m + farthest_m
+        if rows is None:
+            evidence = (Evidence("driven out unguided", driven_m, whole_m, "m"),)
+            if driven_m > whole_m:
+                return Step(
+                    Motion(), Event.FAIL, evidence, Sight(frame, (), centres), "no rows behind to leave by"
+                )
+            return Step(self._ahead(0.0), None, evidence, Sight(frame, (), centres))
+        line = feature(rows.rows, camera)
+        turn_rps = yaw_rate(line, camera, -crop.speeds.exit_mps, crop.servoing)
+        behind = int(centres_in_rows(centres, rows.rows, crop, camera, ImagePart.BOTTOM).sum())
+        ended = self._end.add(behind, frame.stamp_s, seen.forward_m)
+        evidence = (
+            *self._end.evidence("bottom half"),
+            Evidence("driven out", driven_m, whole_m / 2, "m"),
+            Evidence("feature offset", line.offset_px, None, "px"),
+            Evidence("feature angle", degrees(line.theta_rad), None, "deg"),
+        )
+        sight = Sight(frame, rows.rows, centres, line)
+        if driven_m > 2 * whole_m:
+            return Step(Motion(), Event.FAIL, evidence, sight, "crop behind does not end")
+        if not (ended and driven_m > whole_m / 2):
+            return Step(self._ahead(turn_rps), None, evidence, sight)
+        last = self._lane.number >= self._task.lanes
+        return Step(Motion(), Event.LAST_LANE_LEFT if last else Event.LANE_LEFT, evidence, sight)
+
+    def _follow(self, centres: Centres, stamp_s: float, camera: Pinhole) -> None:
+        crop = self._task.crop
+        if self._lane.trailing is not None:
+            self._lane.trailing = track(self._lane.trailing, centres, stamp_s, crop, camera)
+            return
+        fit = lane_of(centres, crop, camera)
+        if self._found.add(fit) and fit:
+            self._lane.trailing = start(fit, stamp_s)
+
+    def _ahead(self, turn_rps: float) -> Motion:
+        speed_mps = self._direction.sign * self._task.crop.speeds.exit_mps
+        return Motion(Twist(vx_mps=speed_mps, yaw_rate_rps=turn_rps))

@@ -1,0 +1,34 @@
+"""What the behaviours of one lane and of one switch hand to each other. Made anew for every lane and switch."""
+
+from collections import Counter
+from dataclasses import dataclass, field
+
+from fieldnav.perception.crossing import Crossing
+from fieldnav.perception.recognition import Descriptors
+from fieldnav.perception.tracking import TrackedRows
+
+
+@dataclass(slots=True)
+class SwitchMemory:
+    """One sidestep: the outermost row's features and the rows as they pass."""
+
+    started_m: float
+    reference: Descriptors | None = None
+    crossing: Crossing | None = None
+
+
+@dataclass(slots=True)
+class LaneMemory:
+    """One lane: the rows as each camera follows them, and how many rows were seen how often."""
+
+    number: int
+    under_way: bool = False
+    leading: TrackedRows | None = None
+    trailing: TrackedRows | None = None
+    counts: Counter[int] = field(default_factory=Counter)
+    switch: SwitchMemory | None = None
+
+    @property
+    def rows(self) -> int:
+        """C, the number of rows under the robot: the most frequent count of this lane; 0 before any was seen."""
+        return self.counts.most_common(1)[0][0] if self.counts else 0

@@ -1,0 +1,64 @@
+"""Sidestep.Settling: come to rest centred on the new lane, straight to its rows."""
+
+from math import degrees, radians
+
+from fieldnav.messages import CameraName, Direction, Evidence, Frame, Motion
+from fieldnav.perception.crossing import follow, new_lane_m, rows_in_image
+from fieldnav.perception.perceive import find
+from states.behaviour import Observation, Sight, Step, Task
+from states.memory import LaneMemory, SwitchMemory
+from states.names import Event
+from states.orienting import sideways
+
+OFFSET_GAIN_PER_S = 0.8
+HEADING_GAIN_PER_S = 0.5
+MOST_TURN_RPS = 0.05
+FRAMES_CENTRED = 5
+
+
+class Settling:
+    """Moves in proportion to what is left, until several frames say centred and aligned."""
+
+    def __init__(self, task: Task, direction: Direction, lane: LaneMemory) -> None:
+        self.cameras: tuple[CameraName, ...] = (direction.trailing,)
+        self._task, self._direction, self._lane = task, direction, lane
+        self._centred = 0
+        self._step = Step(sideways(task, task.crop.speeds.sidestep_mps))
+
+    def step(self, seen: Observation) -> Step:
+        frame = seen.frames.get(self._direction.trailing)
+        switch = self._lane.switch
+        assert switch, "Orienting begins the switch"
+        moved_m = abs(seen.sideways_m - switch.started_m)
+        limit_m = self._task.crop.switching.longest_sidestep_m
+        if moved_m > limit_m:
+            evidence = (Evidence("moved sideways", moved_m, limit_m, "m"),)
+            return Step(
+                Motion(), Event.FAIL, evidence, reason="the new lane could not be centred in the sidestep"
+            )
+        if frame is None:
+            return self._step.continued()
+        self._step = self._settle(frame, switch, moved_m)
+        return self._step
+
+    def _settle(self, frame: Frame, switch: SwitchMemory, moved_m: float) -> Step:
+        crop, camera = self._task.crop, self._task.cameras[frame.camera]
+        found = find(frame.image, crop, camera)
+        assert switch.crossing, "Sampling begins the crossing"
+        rows = switch.crossing = follow(switch.crossing, found.lines, crop, camera)
+        offset_m = new_lane_m(rows, crop)
+        aligned_rad = radians(crop.switching.aligned_deg)
+        good = abs(offset_m) < crop.switching.centred_m and abs(rows.slope) < aligned_rad
+        self._centred = self._centred + 1 if good else 0
+        evidence = (
+            Evidence("distance to the new lane's centre", offset_m, crop.switching.centred_m, "m"),
+            Evidence("angle to the new lane", degrees(rows.slope), crop.switching.aligned_deg, "deg"),
+            Evidence("frames centred", self._centred, FRAMES_CENTRED, "frames"),
+            Evidence("moved sideways", moved_m, crop.switching.longest_sidestep_m, "m"),
+        )
+        fastest = crop.speeds.sidestep_mps
+        speed_mps = max(-fastest, min(fastest, OFFSET_GAIN_PER_S * offset_m))
+        turn_rps = max(-MOST_TURN_RPS, min(MOST_TURN_RPS, HEADING_GAIN_PER_S * rows.slope))
+        motion = sideways(self._task, speed_mps, turn_rps)
+        event = Event.LANE_CENTRED if self._centred >= FRAMES_CENTRED else None
+        return Step(motion, event, evidence, Sight(frame, rows_in_image(rows, crop, camera), found.centres))
