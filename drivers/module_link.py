@@ -17,7 +17,6 @@ from drivers.thorvald_protocol import (
     words,
 )
 from drivers.wire_layout import Telegram
-from fieldnav.errors import DriverError
 from fieldnav.messages import ModuleReport, Wheel
 from fieldnav.settings.robot import Module
 
@@ -29,6 +28,9 @@ READ_REPLIES = frozenset(
         SdoCommand.READ_4_BYTES,
     }
 )
+
+ALL_FAULTS = 0xFF
+"""Object 2112 has eight flags."""
 
 NODE_STATES = {state.value: state for state in NodeState}
 
@@ -129,18 +131,18 @@ class ModuleLink:
                 return
         self.heard_s = now_s
 
-    def check(self) -> None:
-        """Raises DriverError naming the quantity and both values when the module is not the robot file's."""
+    @property
+    def objection(self) -> str | None:
+        """What about the module is not as in the robot file or not well, with both values; None when all is."""
         if self._constants is not None:
             wanted = {"DriveDirection": self.module.drive_direction, "HomeCount": self.module.home_count}
             for quantity, expected in wanted.items():
-                if self._constants[quantity] != expected:
-                    raise DriverError(
-                        f"{self.name}: {quantity} is {self._constants[quantity]:.0f} in the module "
-                        f"but {expected} in the robot file"
-                    )
+                found = round(self._constants[quantity])
+                if found != expected:
+                    return f"{self.name}: {quantity} is {found} in the module but {expected} in the robot file"
         if self.fault_flags:
-            raise DriverError(f"{self.name} reports faults: {words(FaultFlag(self.fault_flags & 0xFF))}")
+            return f"{self.name} reports faults: {words(FaultFlag(self.fault_flags & ALL_FAULTS))}"
+        return None
 
     def _take_health(self, values: Mapping[str, float]) -> None:
         self._flags = sum(bit for bit, signal in FLAG_SIGNALS.items() if values[signal])

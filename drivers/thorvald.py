@@ -50,7 +50,8 @@ class ThorvaldWheels:
     @property
     def ready(self) -> bool:
         """All modules are operational and are the ones of the robot file; until then only zero is sent."""
-        return self._started and all(link.missing is None for link in self._links.values())
+        links = self._links.values()
+        return self._started and all(link.missing is None and link.objection is None for link in links)
 
     def versions(self) -> dict[Wheel, tuple[int, int, int] | None]:
         """The modules' script versions (major, minor, patch), as far as they have said them."""
@@ -145,7 +146,8 @@ class ThorvaldWheels:
             if link.rebooted:
                 link.rebooted = False
                 raise DriverError(f"{link.name} has left operation or rebooted")
-            link.check()
+            if link.objection is not None:
+                raise DriverError(link.objection)
             if link.missing is None:
                 continue
             if now_s - self._starting_s > START_LIMIT_S:

@@ -56,6 +56,11 @@ class WireLayout:
         """The node ids that the file describes."""
         return frozenset(node for node, _ in self._by_role if node != NO_NODE)
 
+    @property
+    def frame_ids(self) -> frozenset[int]:
+        """The ids of all frames that the file describes."""
+        return frozenset(self._by_frame_id)
+
     def frame(self, stamp_s: float, node: int, kind: Kind, values: Mapping[str, float]) -> can.Message:
         """A frame that says this; bytes without a signal are zero. Raises KeyError for an unknown node."""
         message = self._by_role[node, kind]

@@ -2,8 +2,8 @@
 
 from fieldnav.messages import CameraName, Direction, Evidence, Frame, Motion
 from fieldnav.perception.crossing import Crossing, accept, candidate_row, follow, rows_in_image
-from fieldnav.perception.perceive import find
 from fieldnav.perception.recognition import describe, distance
+from fieldnav.perception.vegetation import find_plants
 from states.behaviour import Observation, Sight, Step, Task
 from states.memory import LaneMemory, SwitchMemory
 from states.names import Event
@@ -39,9 +39,9 @@ class CrossingRows:
 
     def _count(self, frame: Frame, switch: SwitchMemory, moved_m: float) -> Step:
         crop, camera = self._task.crop, self._task.cameras[frame.camera]
-        found = find(frame.image, crop, camera)
+        centres, _ = find_plants(frame.image, crop.vegetation, camera)
         assert switch.crossing, "Sampling begins the crossing"
-        rows = follow(switch.crossing, found.lines, crop, camera)
+        rows = follow(switch.crossing, centres, crop, camera)
         rows, evidence = self._recognise(frame, rows, switch)
         switch.crossing = rows
         wanted = self._lane.rows or crop.rows.per_lane
@@ -50,7 +50,7 @@ class CrossingRows:
             Evidence("moved sideways", moved_m, crop.switching.longest_sidestep_m, "m"),
             *evidence,
         )
-        sight = Sight(frame, rows_in_image(rows, crop, camera), found.centres)
+        sight = Sight(frame, rows_in_image(rows, crop, camera), centres)
         turn_rps = max(-MOST_TURN_RPS, min(MOST_TURN_RPS, HEADING_GAIN_PER_S * rows.slope))
         motion = sideways(self._task, crop.speeds.sidestep_mps, turn_rps)
         return Step(motion, Event.ROWS_CROSSED if rows.passed >= wanted else None, evidence, sight)

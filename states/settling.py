@@ -4,7 +4,7 @@ from math import degrees, radians
 
 from fieldnav.messages import CameraName, Direction, Evidence, Frame, Motion
 from fieldnav.perception.crossing import follow, new_lane_m, rows_in_image
-from fieldnav.perception.perceive import find
+from fieldnav.perception.vegetation import find_plants
 from states.behaviour import Observation, Sight, Step, Task
 from states.memory import LaneMemory, SwitchMemory
 from states.names import Event
@@ -43,9 +43,9 @@ class Settling:
 
     def _settle(self, frame: Frame, switch: SwitchMemory, moved_m: float) -> Step:
         crop, camera = self._task.crop, self._task.cameras[frame.camera]
-        found = find(frame.image, crop, camera)
+        centres, _ = find_plants(frame.image, crop.vegetation, camera)
         assert switch.crossing, "Sampling begins the crossing"
-        rows = switch.crossing = follow(switch.crossing, found.lines, crop, camera)
+        rows = switch.crossing = follow(switch.crossing, centres, crop, camera)
         offset_m = new_lane_m(rows, crop)
         aligned_rad = radians(crop.switching.aligned_deg)
         good = abs(offset_m) < crop.switching.centred_m and abs(rows.slope) < aligned_rad
@@ -61,4 +61,4 @@ class Settling:
         turn_rps = max(-MOST_TURN_RPS, min(MOST_TURN_RPS, HEADING_GAIN_PER_S * rows.slope))
         motion = sideways(self._task, speed_mps, turn_rps)
         event = Event.LANE_CENTRED if self._centred >= FRAMES_CENTRED else None
-        return Step(motion, event, evidence, Sight(frame, rows_in_image(rows, crop, camera), found.centres))
+        return Step(motion, event, evidence, Sight(frame, rows_in_image(rows, crop, camera), centres))

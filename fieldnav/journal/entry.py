@@ -57,7 +57,6 @@ class Line(BaseModel):
     frame: dict[str, Any] | None = None
     command: dict[str, float | None] | None = None
     reason: str = ""
-    reason: str = ""
 
 
 def line_of(entry: Entry, sequence: int, start_utc: datetime) -> dict[str, Any]:
@@ -90,7 +89,6 @@ def line_of(entry: Entry, sequence: int, start_utc: datetime) -> dict[str, Any]:
             "vy_mps": _number(command.vy_mps),
             "yaw_rate_rps": _number(command.yaw_rate_rps),
         },
-        "reason": entry.reason,
         "reason": entry.reason,
     }
 

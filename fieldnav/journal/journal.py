@@ -2,6 +2,7 @@
 
 import json
 import os
+from contextlib import suppress
 from datetime import datetime
 from pathlib import Path
 from types import TracebackType
@@ -24,19 +25,23 @@ class Journal:
         self._start_utc = start_utc
         try:
             self._sequence = _repair(path)
-            self._file = path.open("ab")
+            self._file = path.open("ab", buffering=0)
             _sync_folder(path.parent)
         except OSError as error:
             raise _unwritable(path, error) from error
 
     def record(self, entry: Entry) -> None:
-        """Append one line; on return it is flushed and synced to the disk."""
-        text = json.dumps(line_of(entry, self._sequence, self._start_utc), allow_nan=False)
+        """Append one line; on return it is on the disk. Raises OutputError; the file then ends as before."""
+        line = line_of(entry, self._sequence, self._start_utc)
+        content = json.dumps(line, allow_nan=False).encode() + b"\n"
+        whole_lines = self._file.tell()
         try:
-            self._file.write(text.encode() + b"\n")
-            self._file.flush()
+            while content:
+                content = content[self._file.write(content) :]
             os.fsync(self._file.fileno())
         except OSError as error:
+            with suppress(OSError):  # the disk is failing already; a torn line would hide the ones after it
+                self._file.truncate(whole_lines)
             raise _unwritable(self._path, error) from error
         self._sequence += 1
 

@@ -85,6 +85,7 @@ def phase_of(state: str) -> str:
 
 def _extent(run: RunMap) -> tuple[Floats, Floats]:
     points = np.concatenate([run.path_m, *run.lanes_m, *run.rows_m, run.row_ends_m, run.crossings_m])
+    points = points if len(points) else np.zeros((1, 2))
     return points.min(axis=0) - MARGIN_M, points.max(axis=0) + MARGIN_M
 
 

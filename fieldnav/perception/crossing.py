@@ -8,9 +8,10 @@ of them shrink together; how fast is seen, not taken from the wheels.
 from dataclasses import dataclass, replace
 
 import numpy as np
+from numpy.typing import NDArray
 
-from fieldnav.messages import RowLine
-from fieldnav.perception.canopy import canopy_plane, half_width_px, line_px
+from fieldnav.messages import Centres, Floats, RowLine
+from fieldnav.perception.canopy import canopy_plane, half_width_px, line_px, plant_area_m2
 from fieldnav.pinhole import Pinhole
 from fieldnav.settings.crop import CropProfile
 
@@ -24,9 +25,18 @@ OFF_SPACING = 0.3
 """New rows stand a whole number of row spacings apart, within this share of one."""
 MOST_SKIPPED = 2
 """Row spacings between two new rows in a chain: one row may have failed to grow at its end."""
-SLOPE_BLEND = 0.1
+SLOPE_BLEND = 0.2
 """Weight of one frame's heading in the running one; single frames err by several degrees."""
-PLACE_BLEND = 0.5
+PRIOR_SPREAD_M2 = 0.02
+"""Spread of plants along the rows, in whole plants times square metres, below which they say little of the heading."""
+MEMBER = 0.6
+"""A plant belongs to a row within this share of the canopy's width."""
+WINDOW = 1.0
+"""Width of the sliding window over the canopy's width."""
+ROW_MASS = 0.6
+"""Canopy in the window that makes a row, in squares of the canopy's width; a weed or two have less."""
+SMALLEST_MASS = 1e-6
+ROUNDS = 2
 
 
 @dataclass(frozen=True, slots=True)
@@ -68,33 +78,27 @@ def begin(rows: tuple[RowLine, ...], outward: int, crop: CropProfile, camera: Pi
     return Crossing(outward, tuple(PassingRow(-index, place) for index, place in enumerate(across)), slope)
 
 
-def follow(crossing: Crossing, lines: tuple[RowLine, ...], crop: CropProfile, camera: Pinhole) -> Crossing:
-    """Carry the rows along with the lines of a new frame."""
+def follow(crossing: Crossing, centres: Centres, crop: CropProfile, camera: Pinhole) -> Crossing:
+    """Carry the rows along with the plants of a new frame, and look for a row beyond the outermost."""
     plane = canopy_plane(camera, crop)
-    spacing_m = crop.rows.spacing_m
-    seen = np.array([_across_m(line, crossing.outward, plane) for line in lines])
-    before = np.array([row.across_m for row in crossing.rows])
-    away = np.abs(seen[None, :] - before[:, None])
-    nearest = away.argmin(axis=1) if len(seen) else np.zeros(len(before), int)
-    found = away.min(axis=1, initial=np.inf) < SAME_ROW * spacing_m
-    residual = np.where(found, seen[nearest] - before, 0.0) if len(seen) else np.zeros_like(before)
-    shift = float(np.median(residual[found])) if found.any() else 0.0
-    places = before + shift + PLACE_BLEND * np.where(found, residual - shift, 0.0)
-    rows = tuple(
-        PassingRow(row.number, float(place)) for row, place in zip(crossing.rows, places, strict=True)
-    )
-    slopes = [plane.row_on_ground(lines[index])[1] for index in nearest[found]]
-    slope = crossing.slope + SLOPE_BLEND * (float(np.mean(slopes)) - crossing.slope if slopes else 0.0)
+    ahead, left = plane.to_ground(centres.position_px).T
+    ahead = ahead - _look_at_m(plane)
+    weight = np.minimum(plant_area_m2(centres, plane) / crop.plants.canopy_width_m**2, 1.0)
+    across = crossing.outward * (left - crossing.slope * ahead)
+    places = np.array([row.across_m for row in crossing.rows])
+    for _ in range(ROUNDS):
+        row = _members(across, places, crop)
+        places = _moved(places, across, weight, row)
+    slope = crossing.slope + SLOPE_BLEND * crossing.outward * _lean(ahead, across, weight, row, len(places))
+    rows = tuple(replace(old, across_m=float(place)) for old, place in zip(crossing.rows, places, strict=True))
     moved = replace(crossing, rows=rows, slope=slope)
-    beyond = seen[seen > moved.outermost.across_m + NEW_ROW * spacing_m]
-    if not len(beyond):
+    least = moved.outermost.across_m + NEW_ROW * crop.rows.spacing_m
+    candidate = _beyond(across, weight, least, crop)
+    if candidate is None:
         return replace(moved, candidate_m=None, candidate_frames=0)
-    candidate = float(beyond.min())
     last = crossing.candidate_m
-    again = last is not None and abs(candidate - last - shift) < SAME_ROW * spacing_m
-    return replace(
-        moved, candidate_m=candidate, candidate_frames=crossing.candidate_frames + 1 if again else 1
-    )
+    again = last is not None and abs(candidate - last) < SAME_ROW * crop.rows.spacing_m
+    return replace(moved, candidate_m=candidate, candidate_frames=crossing.candidate_frames + 1 if again else 1)
 
 
 def candidate_row(crossing: Crossing, crop: CropProfile, camera: Pinhole) -> RowLine | None:
@@ -144,6 +148,57 @@ def rows_in_image(crossing: Crossing, crop: CropProfile, camera: Pinhole) -> tup
     plane = canopy_plane(camera, crop)
     lines = (_line(crossing, row.across_m, plane) for row in crossing.rows)
     return tuple(sorted(lines, key=lambda line: line.x_bottom_px))
+
+
+def _members(across: Floats, places: Floats, crop: CropProfile) -> NDArray[np.int64]:
+    """The row that each plant belongs to, -1 for none; shape (n,)."""
+    away = np.abs(across[:, None] - places[None, :])
+    within = min(SAME_ROW * crop.rows.spacing_m, MEMBER * crop.plants.canopy_width_m)
+    nearest = away.argmin(axis=1)
+    return np.where(away.min(axis=1, initial=np.inf) <= within, nearest, -1)
+
+
+def _moved(places: Floats, across: Floats, weight: Floats, row: NDArray[np.int64]) -> Floats:
+    """Rows at the weighted mean of their plants; those without any go along with the others."""
+    count = len(places)
+    inside = row >= 0
+    mass = np.bincount(row[inside], weight[inside], count)
+    mean = np.bincount(row[inside], (weight * across)[inside], count) / np.maximum(mass, SMALLEST_MASS)
+    seen = mass > SMALLEST_MASS
+    shift = np.where(seen, mean - places, 0.0)
+    common = float(np.average(shift[seen], weights=mass[seen])) if seen.any() else 0.0
+    return places + np.where(seen, shift, common)
+
+
+def _lean(
+    ahead: Floats, across: Floats, weight: Floats, row: NDArray[np.int64], count: int
+) -> float:
+    """Slope that the plants' places still have along their rows: the pooled weighted regression; 0 without any."""
+    inside = row >= 0
+    row, weight = row[inside], weight[inside]
+    mass = np.maximum(np.bincount(row, weight, count), SMALLEST_MASS)
+    x = ahead[inside] - (np.bincount(row, weight * ahead[inside], count) / mass)[row]
+    y = across[inside] - (np.bincount(row, weight * across[inside], count) / mass)[row]
+    # A short stretch of plants says little about the heading: the prior pulls it to zero.
+    return float((weight * x * y).sum() / ((weight * x * x).sum() + PRIOR_SPREAD_M2))
+
+
+def _beyond(across: Floats, weight: Floats, least_m: float, crop: CropProfile) -> float | None:
+    """The nearest row beyond a place: the sliding window of III-A.2 across the rows, their heading being known."""
+    beyond = across > least_m
+    places, mass = across[beyond], weight[beyond]
+    if not len(places):
+        return None
+    half = WINDOW * crop.plants.canopy_width_m / 2
+    inside = np.abs(places[None, :] - places[:, None]) <= half
+    heavy = inside @ mass
+    enough = (heavy >= ROW_MASS) & (inside.sum(axis=1) >= crop.tracking.fewest_centres)
+    if not enough.any():
+        return None
+    first = places[enough].min()
+    near = enough & (places <= first + 2 * half)
+    window = inside[near][int(heavy[near].argmax())]
+    return float(np.average(places[window], weights=mass[window]))
 
 
 def _look_at_m(plane: Pinhole) -> float:

@@ -1,7 +1,5 @@
 """Rows just found, fitted to the plants along them, and judged by them."""
 
-from math import log
-
 import numpy as np
 
 from fieldnav.messages import RowLine
@@ -18,7 +16,8 @@ ROUNDS = 2  # of fitting a fresh lane
 CLEARLY_BETTER = 1.15  # a comb elsewhere is taken over the lines' when it scores so many times more
 EVIDENCE = 4.0  # natural logarithm of how much likelier rows are than plants strewn about, with lines found
 EVIDENCE_WITHOUT_LINES = 8.0  # and without
-CERTAIN = 0.99
+SPREAD = 1.3  # standard deviation about a row just found, against that about the true one
+STRAY = 0.3  # share of the plants that is no crop
 LINE_OFFSET_PRIOR_M = 0.05  # standard deviation of a found line's distance from its row
 
 
@@ -56,20 +55,17 @@ def settle(
 
 
 def evidence(comb: Comb, plants: GroundPlants, crop: CropProfile, plane: Pinhole) -> float:
-    """How much likelier the plants are on rows than strewn about the view, as a natural logarithm.
+    """How much likelier the plants are with these rows than strewn over the view, as a natural logarithm.
 
-    Chernoff's bound for the share of the plants that stands inside the parallelograms by chance.
+    Each plant adds its likelihood ratio, by its weight: normally distributed about the nearest row, or, with the
+    share STRAY, anywhere.
     """
-    inside = members(comb, plants, widest_m(crop)) >= 0
-    effective = plants.weight.sum() ** 2 / (plants.weight**2).sum()
-    share = float(plants.weight[inside].sum() / plants.weight.sum())
-    view = plane.width_px / plane.pixels_per_metre(plane.centre_y_px)
-    width = 2 * np.minimum(plants.half_width_m, widest_m(crop)).mean() * len(comb.place_m)
-    chance = float(min(width / view, CERTAIN))
-    if share <= chance:
-        return 0.0
-    outside = (1 - share) * log((1 - share) / (1 - chance)) if share < 1 else 0.0
-    return float(effective * (share * log(share / chance) + outside))
+    spread_m = SPREAD * scatter_m(crop)
+    view_m = plane.width_px / float(plane.pixels_per_metre(plane.centre_y_px))
+    off = np.abs(comb.residual_m(plants)).min(axis=0)
+    on_row = np.exp(-0.5 * (off / spread_m) ** 2) / (spread_m * np.sqrt(2 * np.pi) * len(comb.place_m))
+    ratio = (1 - STRAY) * on_row * view_m + STRAY
+    return float((plants.weight * np.log(ratio)).sum())
 
 
 def settle_lines(

@@ -38,7 +38,7 @@ class FieldRenderer:
         self._mirrored = plan.mirrored
         self._foliage = Foliage(stand, models, bands, lighting)
         self._ground = GroundMap(soil, self._foliage, lighting, field.seed)
-        self._colours = colour_table(field.ground.colour_bgr, models.palettes(), bands)
+        self._colours = colour_table(field.ground.colour_bgr, models.palettes, bands)
         self._wind = make_wind(field.wind_mps, field.seed)
 
     def render(self, view: View, time_s: float) -> Image:
@@ -64,5 +64,7 @@ class FieldRenderer:
 def _seen(texture: Texture, to_texture: Floats, view: View) -> Texture:
     """A map of the ground as a view sees it, shape (height, width); it repeats where it ends."""
     size, flags = (view.width_px, view.height_px), cv2.INTER_NEAREST | cv2.WARP_INVERSE_MAP
-    warped = cv2.warpPerspective(texture, to_texture @ view.ground, size, flags=flags, borderMode=cv2.BORDER_WRAP)
+    warped = cv2.warpPerspective(
+        texture, to_texture @ view.ground, size, flags=flags, borderMode=cv2.BORDER_WRAP
+    )
     return np.asarray(warped, dtype=np.uint8)

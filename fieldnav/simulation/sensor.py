@@ -26,7 +26,9 @@ FULL = 255
 class Sensor:
     """One camera's sensor; `mirrored` flips its noise left to right, as the mirrored field's pictures are."""
 
-    def __init__(self, errors: CameraErrors, width: int, height: int, seed: int, mirrored: bool = False) -> None:
+    def __init__(
+        self, errors: CameraErrors, width: int, height: int, seed: int, mirrored: bool = False
+    ) -> None:
         self._errors = errors
         self._seed = seed
         self._mirrored = mirrored

@@ -121,7 +121,9 @@ def _litter(ground: Ground, towards_sun: tuple[float, float], random: np.random.
         step = int(random.integers(*STONE_STEPS))
         _lay(texture, outline + rim, CAST_STEP)
         _lay(texture, outline, step)
-        _lay(texture, (outline - outline.mean(axis=0)) * 0.6 + outline.mean(axis=0) - rim / 2, step + CAST_STEP)
+        _lay(
+            texture, (outline - outline.mean(axis=0)) * 0.6 + outline.mean(axis=0) - rim / 2, step + CAST_STEP
+        )
     for _ in range(random.poisson(STRAW_PER_M2 * ground.residue * area_m2)):
         outline = _straw(random)
         _lay(texture, outline + rim, CAST_STEP)

@@ -17,7 +17,10 @@ from fieldnav.journal.journal import Journal, read
 from fieldnav.messages import CameraName, Evidence, Frame, Twist
 
 START = datetime(2026, 5, 1, 8, 30, tzinfo=UTC)
-KEYS = "seq stamp_s utc event source target lane rows evidence frame command reason".split()
+KEYS = [
+    *("seq", "stamp_s", "utc", "event", "source", "target"),
+    *("lane", "rows", "evidence", "frame", "command", "reason"),
+]
 ENTRY = Entry(
     stamp_s=12.3456789,
     event="lane ended",
@@ -120,17 +123,33 @@ def test_a_journal_that_cannot_be_written_says_so(tmp_path: Path) -> None:
         Journal(tmp_path / "nowhere" / "journal.jsonl", START)
 
 
-@pytest.mark.skipif(not Path("/dev/full").exists(), reason="the full device is Linux's")
-def test_a_full_disk_is_an_output_error() -> None:
-    from fieldnav.journal import journal as module  # noqa: PLC0415 - the class writes where it is told
+def test_a_full_disk_is_one_line_and_leaves_only_whole_lines(tmp_path: Path) -> None:
+    program = (
+        "import resource, sys; from datetime import *; from pathlib import Path\n"
+        "from fieldnav.errors import OutputError\n"
+        "from fieldnav.journal.journal import Journal; from fieldnav.journal.entry import Entry\n"
+        "resource.setrlimit(resource.RLIMIT_FSIZE, (1000, 1000))\n"
+        "with Journal(Path(sys.argv[1]), datetime(2026, 5, 1, tzinfo=UTC)) as journal:\n"
+        "    try:\n"
+        "        for number in range(50): journal.record(Entry(number, 'e', 's', 't'))\n"
+        "    except OutputError as error: print(error)\n"
+    )
 
-    journal = module.Journal.__new__(module.Journal)
-    journal._path, journal._start_utc, journal._sequence = Path("/dev/full"), START, 0
-    journal._file = Path("/dev/full").open("ab", buffering=0)
+    done = subprocess.run(
+        [sys.executable, "-c", program, str(tmp_path / "journal.jsonl")],
+        capture_output=True,
+        text=True,
+        check=True,
+    )
 
-    with pytest.raises(OutputError, match="/dev/full: cannot be written: No space left on device"):
-        journal.record(ENTRY)
-    journal.close()
+    assert (done.stdout, done.stderr) == (
+        f"{tmp_path}/journal.jsonl: cannot be written: File too large\n",
+        "",
+    )
+    content = (tmp_path / "journal.jsonl").read_bytes()
+    assert content.endswith(b"\n")
+    assert len(content) < 1000
+    assert len(read(tmp_path / "journal.jsonl")) > 1
 
 
 @given(st.floats())

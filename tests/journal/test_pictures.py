@@ -80,10 +80,8 @@ def test_rows_seen_rows_kept_and_the_feature_are_told_apart() -> None:
 
     drawn = draw_overlay(view)
 
-    assert tuple(drawn[120, 60]) == ROW
-    assert tuple(drawn[120, 250]) == HELD_ROW
-    assert tuple(drawn[120, 160]) == FEATURE
-    assert tuple(drawn[120, 20]) == tuple(SOIL[0, 0])
+    for x, colour in ((60, ROW), (250, HELD_ROW), (160, FEATURE), (20, (72, 96, 122))):
+        assert np.abs(drawn[120, x].astype(int) - colour).max() <= 20  # lines are drawn with soft edges
 
 
 def test_drawing_leaves_the_picture_itself_alone() -> None:

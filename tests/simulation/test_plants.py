@@ -19,6 +19,8 @@ BUDGET = {"coriander": 14, "winter-wheat": 14} | dict.fromkeys(WEED_SPECIES, 14)
 LARGE_CROP_BUDGET = 24
 MOST_VERTICES = 12
 VARIANTS = 12
+TILT_RAD = np.radians(65)
+HEIGHT = 0.6  # of a plant seen, in canopy diameters: the middle of what is sown
 RASTER_PX = 300
 STANCE = Stance((0.0, 0.0, 0.0), azimuth_rad=0.7, rise_rad=0.9, bend_rad=1.2, length=2.0, roll_rad=0.1)
 SHAPE = Shape(stations=(0.0, 0.3, 0.7, 1.0), half_widths=(0.02, 0.2, 0.15, 0.01))
@@ -34,12 +36,12 @@ def _raster(xy: NDArray[np.float64]) -> NDArray[np.int32]:
     return np.round((xy + 0.75) / 1.5 * RASTER_PX).astype(np.int32)
 
 
-def _seen_from(model: PlantModel, yaw_rad: float, tilt_rad: float) -> NDArray[np.float64]:
-    """Outlines (n_leaves, n_vertices, 2) as seen from afar, tilted below the horizontal."""
+def _seen_from(model: PlantModel, yaw_rad: float) -> NDArray[np.float64]:
+    """Outlines (n_leaves, n_vertices, 2) as seen from afar, 65 degrees below the horizontal."""
     x, y, z = (model.leaves[..., i].astype(float) for i in range(3))
     right = x * np.cos(yaw_rad) - y * np.sin(yaw_rad)
     ahead = x * np.sin(yaw_rad) + y * np.cos(yaw_rad)
-    return np.stack([right, -ahead * np.sin(tilt_rad) - 0.7 * (z - 0.5) * np.cos(tilt_rad)], axis=-1)
+    return np.stack([right, -ahead * np.sin(TILT_RAD) - HEIGHT * (z - 0.5) * np.cos(TILT_RAD)], axis=-1)
 
 
 def _cover(model: PlantModel) -> NDArray[np.bool_]:
@@ -59,7 +61,7 @@ def _elongation(model: PlantModel) -> float:
 
 @cache
 def _habit(species: str) -> NDArray[np.float64]:
-    """What tells species apart, about 0 to 1 each: leaf count, elongation, coverage, two ratios of colours."""
+    """What tells species apart, about 0 to 1 each: leaf count, elongation, coverage, two colour ratios."""
     models = _variants(species)
     count = np.mean([len(model.leaves) for model in models]) / LARGE_CROP_BUDGET
     elongation = np.log(np.mean([_elongation(model) for model in models])) / 2
@@ -110,6 +112,13 @@ def test_equal_generators_give_equal_plants_and_others_differ(species: str) -> N
     np.testing.assert_array_equal(first.leaves, again.leaves)
     np.testing.assert_array_equal(first.tone, again.tone)
     assert first.leaves.shape != other.leaves.shape or not np.allclose(first.leaves, other.leaves, atol=0.01)
+
+
+@pytest.mark.parametrize("species", SPECIES)
+def test_leaves_of_one_plant_face_different_ways(species: str) -> None:
+    spread = np.mean([np.linalg.norm(model.normals.std(axis=0)) for model in _variants(species)])
+
+    assert spread > 0.2
 
 
 @pytest.mark.parametrize("species", SPECIES)
@@ -189,12 +198,12 @@ def test_grasses_are_slender_and_bushes_cover_the_ground() -> None:
 def test_outlines_can_be_filled_as_if_convex(species: str) -> None:
     convex_px = exact_px = 0
     for turn, model in enumerate(_variants(species)):
-        for outline in _raster(_seen_from(model, yaw_rad=0.5 * turn, tilt_rad=np.radians(65))):
+        for outline in _raster(_seen_from(model, yaw_rad=0.5 * turn)):
             convex, exact = np.zeros((2, RASTER_PX, RASTER_PX), np.uint8)
             convex_px += int(cv2.fillConvexPoly(convex, outline, 1).sum())
             exact_px += int(cv2.fillPoly(exact, [outline], 1).sum())
 
-    assert convex_px == pytest.approx(exact_px, rel=0.06)
+    assert convex_px == pytest.approx(exact_px, rel=0.08)
 
 
 def test_an_unknown_species_is_refused() -> None:

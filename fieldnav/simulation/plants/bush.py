@@ -14,14 +14,14 @@ BALM_LEAF = Shape(
     half_widths=(0.08, 0.28, 0.36, 0.30, 0.16, 0.02),
 )
 BALM = Habit(
-    length=Trait(0.28, 0.19, 0.02),
+    length=Trait(0.29, 0.2, 0.02),
     rise_rad=Trait.degrees(12, 35, 6),
     bend_rad=Trait.degrees(45, 45),
     tone=Trait(0.2, 0.65, 0.06),
     turn_rad=radians(8),
     roll_rad=radians(12),
 )
-BALM_STEMS = 3
+BALM_STEMS = 4
 BALM_STEM = Habit(
     length=Trait(0.64, 0.64, 0.03),
     rise_rad=Trait.degrees(50, 50, 6),
@@ -29,13 +29,13 @@ BALM_STEM = Habit(
     tone=BALM.tone,
     turn_rad=radians(12),
 )
-BALM_STATIONS = (0.5, 0.78, 1.0)
+BALM_STATIONS = (0.6, 1.0)
 """Nodes on an outer stem."""
 BALM_MIDDLE = Stance(STEM_FOOT, azimuth_rad=0.0, rise_rad=radians(90), bend_rad=0.0, length=0.66)
-BALM_MIDDLE_STATIONS = (0.75, 1.0)
+BALM_MIDDLE_STATIONS = (0.6, 0.8, 1.0)
 BALM_SERRATION = 0.07
 """Unevenness of the blade's edge."""
-BALM_HEART = (0.3, 0.2)
+BALM_HEART = (0.3, 0.25)
 """Radius and height of the bush's dark inside."""
 BALM_SMALLEST_SCALE = 0.9
 """Length of the outer stems when the stage begins; 1 at its end."""
@@ -75,6 +75,10 @@ FAT_HEN = Habit(
 FAT_HEN_STEM = Stance(STEM_FOOT, azimuth_rad=0.0, rise_rad=radians(90), bend_rad=0.0, length=1.0)
 FAT_HEN_STATIONS = (0.35, 0.58, 0.8, 1.0, 1.05)
 """The last one is there late in the stage alone."""
+BALM_HEIGHT = 0.9
+"""Usual height in canopy diameters."""
+CHICKWEED_HEIGHT = 0.3
+FAT_HEN_HEIGHT = 0.9
 
 
 def lemon_balm(growth: float, rng: np.random.Generator) -> PlantModel:
@@ -87,7 +91,7 @@ def lemon_balm(growth: float, rng: np.random.Generator) -> PlantModel:
         stem = BALM_STEM.stance(turn_rad + i * 2 * pi / BALM_STEMS, 0.0, rng, scale)
         _grow_pairs(foliage, stem, BALM_STATIONS, BALM_LEAF, BALM, rng, BALM_SERRATION)
     _grow_pairs(foliage, BALM_MIDDLE, BALM_MIDDLE_STATIONS, BALM_LEAF, BALM, rng, BALM_SERRATION)
-    return foliage.finish(PALETTES["lemon-balm"])
+    return foliage.finish(PALETTES["lemon-balm"], BALM_HEIGHT)
 
 
 def chickweed(growth: float, rng: np.random.Generator) -> PlantModel:
@@ -98,7 +102,7 @@ def chickweed(growth: float, rng: np.random.Generator) -> PlantModel:
     for i in range(CHICKWEED_STEMS):
         stem = CHICKWEED_STEM.stance(turn_rad + i * 2 * pi / CHICKWEED_STEMS, 0.0, rng, scale)
         _grow_pairs(foliage, stem, CHICKWEED_STATIONS, CHICKWEED_LEAF, CHICKWEED, rng)
-    return foliage.finish(PALETTES["chickweed"])
+    return foliage.finish(PALETTES["chickweed"], CHICKWEED_HEIGHT)
 
 
 def fat_hen(growth: float, rng: np.random.Generator) -> PlantModel:
@@ -106,7 +110,7 @@ def fat_hen(growth: float, rng: np.random.Generator) -> PlantModel:
     foliage = Foliage()
     stations = FAT_HEN_STATIONS[: len(FAT_HEN_STATIONS) - 1 + round(growth)]
     _grow_pairs(foliage, FAT_HEN_STEM, stations, FAT_HEN_LEAF, FAT_HEN, rng)
-    return foliage.finish(PALETTES["fat-hen"])
+    return foliage.finish(PALETTES["fat-hen"], FAT_HEN_HEIGHT)
 
 
 def _grow_pairs(

@@ -36,6 +36,8 @@ FAN = Habit(
     turn_rad=radians(10),
     roll_rad=radians(15),
 )
+HEIGHT = 1.05
+"""Usual height in canopy diameters."""
 
 
 def coriander(growth: float, rng: np.random.Generator) -> PlantModel:
@@ -51,4 +53,4 @@ def coriander(growth: float, rng: np.random.Generator) -> PlantModel:
             fan = FAN.stance_from(thread.point(station), thread.azimuth_rad + turn_rad, height, rng)
             foliage.add([whole(fan, LOBED_FAN)], [FAN.tone.at(height, rng)])
         azimuth_rad += GOLDEN_ANGLE_RAD
-    return foliage.finish(PALETTES["coriander"])
+    return foliage.finish(PALETTES["coriander"], HEIGHT)

@@ -37,6 +37,8 @@ SMALLEST_SCALE = 0.9
 STEM = Stance(STEM_FOOT, azimuth_rad=0.0, rise_rad=radians(88), bend_rad=0.0, length=0.32)
 STEM_WIDTHS = (0.07, 0.05)
 STEM_TONE = 0.6
+HEIGHT = 1.05
+"""Usual height in canopy diameters."""
 
 
 def maize(growth: float, rng: np.random.Generator) -> PlantModel:
@@ -55,4 +57,4 @@ def maize(growth: float, rng: np.random.Generator) -> PlantModel:
             tones += MIDRIB_TONES
         foliage.add(outlines, tones)
         azimuth_rad += pi
-    return foliage.finish(PALETTES["maize"])
+    return foliage.finish(PALETTES["maize"], HEIGHT)

@@ -1,7 +1,7 @@
 """A finished plant, and the gathering of its organs into one.
 
-Plants stand at the origin, z up. While a plant grows its lengths are in any unit it likes, but in the crop's
-true proportions: normals are taken there, before width and height are each brought to 1.
+Plants stand at the origin, z up. While a plant grows its lengths are in any unit it likes; then its width and
+its height are each brought to 1.
 """
 
 from collections.abc import Sequence
@@ -16,6 +16,8 @@ CANOPY_RADIUS = 0.5
 """Half of the normalised canopy diameter."""
 LONGEST_REACH = 0.55
 """No leaf goes farther from the stem than this."""
+FLOOR = (-np.inf, -np.inf, 0.0)
+"""No leaf hangs below the ground."""
 SECTORS = 8
 """Directions about the stem over which the canopy's reach is averaged."""
 FLATTEST_UP = 0.3
@@ -28,7 +30,7 @@ class PlantModel:
 
     leaves: float32 (n_leaves, n_vertices, 3), closed outlines of leaves, half leaves, stalks and ribs,
     z in 0..1, x and y within LONGEST_REACH of the stem; short outlines repeat their last vertex.
-    normals: float32 (n_leaves, 3), unit, facing up, of the plant in its true proportions.
+    normals: float32 (n_leaves, 3), unit, facing up, of the plant in its species' usual proportions.
     tone: float32 (n_leaves,), place in the palette, 0 its first anchor, 1 its last.
     palette: uint8 (k, 3), evenly spaced anchors, blue, green, red, as lit by sun and sky together.
     """
@@ -59,16 +61,20 @@ class Foliage:
         depth = float(outlines[0][:, 2].mean()) - below
         self.organs.append((depth, list(outlines), list(tones)))
 
-    def finish(self, palette: NDArray[np.uint8]) -> PlantModel:
-        """The plant: organs sorted by height, padded to one number of vertices, normalised."""
+    def finish(self, palette: NDArray[np.uint8], height: float) -> PlantModel:
+        """The plant: organs sorted by height, padded to one number of vertices, normalised.
+
+        `height` is the species' usual one in canopy diameters; normals are taken at that.
+        """
         ordered = sorted(self.organs, key=lambda organ: organ[0])
         outlines = [outline for _, group, _ in ordered for outline in group]
         tones = [tone for _, _, group in ordered for tone in group]
         n_vertices = max(len(outline) for outline in outlines)
         leaves = np.stack([_padded(outline, n_vertices) for outline in outlines])
+        leaves = (leaves * _scale(leaves)).clip(min=FLOOR)
         return PlantModel(
-            leaves=_normalised(leaves).astype(np.float32),
-            normals=_normals(leaves).astype(np.float32),
+            leaves=leaves.astype(np.float32),
+            normals=_normals(leaves * (1.0, 1.0, height)).astype(np.float32),
             tone=np.clip(tones, 0, 1).astype(np.float32),
             palette=palette,
         )
@@ -90,8 +96,8 @@ def _normals(leaves: Floats) -> Floats:
     return np.asarray(normals / np.linalg.norm(normals, axis=1, keepdims=True))
 
 
-def _normalised(leaves: Floats) -> Floats:
-    """Leaves with the reach at CANOPY_RADIUS and the highest vertex at 1; none below the ground.
+def _scale(leaves: Floats) -> Floats:
+    """Factors of x, y and z, shape (3,), that bring the canopy's reach to CANOPY_RADIUS and its top to 1.
 
     The reach is the mean over sectors about the stem of the outermost vertex in each, as one who measures a
     canopy takes it; one long leaf does not shrink the plant unless it would pass LONGEST_REACH.
@@ -101,6 +107,4 @@ def _normalised(leaves: Floats) -> Floats:
     sector = np.minimum((turn * SECTORS).astype(int), SECTORS - 1)
     reach = np.mean([distance[sector == i].max(initial=0.0) for i in range(SECTORS)])
     across = min(CANOPY_RADIUS / reach, LONGEST_REACH / distance.max())
-    scaled = leaves * (across, across, 1 / leaves[..., 2].max())
-    scaled[..., 2] = np.maximum(scaled[..., 2], 0)
-    return np.asarray(scaled)
+    return np.array([across, across, 1 / leaves[..., 2].max()])

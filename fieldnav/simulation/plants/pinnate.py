@@ -44,6 +44,8 @@ END_WIDENING = 1.15
 END_TONE_STEP = 0.06
 HEART_RADIUS = 0.45
 HEART_HEIGHT = 0.28
+HEIGHT = 0.8
+"""Usual height in canopy diameters."""
 
 
 def potato(growth: float, rng: np.random.Generator) -> PlantModel:
@@ -59,7 +61,7 @@ def potato(growth: float, rng: np.random.Generator) -> PlantModel:
             rachis = replace(rachis, rise_rad=YOUNGEST_RISE_RAD)
         _grow_leaflets(foliage, rachis, PAIRS[1:] if youngest else PAIRS, height, rng)
         azimuth_rad += GOLDEN_ANGLE_RAD
-    return foliage.finish(PALETTES["potato"])
+    return foliage.finish(PALETTES["potato"], HEIGHT)
 
 
 def _grow_leaflets(

@@ -48,7 +48,7 @@ YOUNG_BEET = Habit(
 PURSE_LEAVES = 7
 PURSE_BLADE = Shape(
     stations=(0.0, 0.35, 0.5, 0.62, 0.78, 1.0),
-    half_widths=(0.02, 0.045, 0.095, 0.08, 0.125, 0.02),
+    half_widths=(0.025, 0.055, 0.09, 0.085, 0.12, 0.02),
 )
 PURSE = Habit(
     length=Trait(1.0, 0.5, 0.07),
@@ -59,6 +59,9 @@ PURSE = Habit(
     turn_rad=radians(6),
     roll_rad=radians(8),
 )
+BEET_HEIGHT = 0.6
+"""Usual height in canopy diameters."""
+PURSE_HEIGHT = 0.25
 
 
 def sugar_beet(growth: float, rng: np.random.Generator) -> PlantModel:
@@ -79,7 +82,7 @@ def sugar_beet(growth: float, rng: np.random.Generator) -> PlantModel:
         stance = YOUNG_BEET.stance(azimuth_rad, height, rng)
         foliage.add([whole(stance, YOUNG_BEET_BLADE)], [YOUNG_BEET.tone.at(height, rng)])
         azimuth_rad += GOLDEN_ANGLE_RAD
-    return foliage.finish(PALETTES["sugar-beet"])
+    return foliage.finish(PALETTES["sugar-beet"], BEET_HEIGHT)
 
 
 def shepherds_purse(growth: float, rng: np.random.Generator) -> PlantModel:
@@ -90,4 +93,4 @@ def shepherds_purse(growth: float, rng: np.random.Generator) -> PlantModel:
         stance = PURSE.stance(azimuth_rad, height, rng)
         foliage.add([whole(stance, PURSE_BLADE)], [PURSE.tone.at(height, rng)])
         azimuth_rad += GOLDEN_ANGLE_RAD
-    return foliage.finish(PALETTES["shepherds-purse"])
+    return foliage.finish(PALETTES["shepherds-purse"], PURSE_HEIGHT)

@@ -40,6 +40,8 @@ class _Trifoliate:
     fold_rad: float
     petioles_seen: int
     """How many leaves, from the lowest up, show their petiole; those higher up hide it."""
+    height: float
+    """Usual one of the plant, in canopy diameters."""
 
 
 BEAN_LEAVES = 5
@@ -57,6 +59,7 @@ BEAN = _Trifoliate(
     spread_rad=radians(88),
     fold_rad=radians(14),
     petioles_seen=3,
+    height=0.95,
 )
 SOYBEAN_LEAVES = 6
 SOYBEAN = _Trifoliate(
@@ -73,6 +76,7 @@ SOYBEAN = _Trifoliate(
     spread_rad=radians(78),
     fold_rad=0.0,
     petioles_seen=3,
+    height=0.95,
 )
 YOUNGEST_SCALE = 0.8
 """Length of the topmost leaves when the stage begins; they are full-sized at its end."""
@@ -100,7 +104,7 @@ def _grow(
             foliage.add([stalk(petiole, (0.0, 1.0), PETIOLE_WIDTHS)], [RIB_TONE])
         _grow_leaflets(foliage, petiole, kind, height, rng)
         azimuth_rad += GOLDEN_ANGLE_RAD
-    return foliage.finish(PALETTES[species])
+    return foliage.finish(PALETTES[species], kind.height)
 
 
 def _grow_leaflets(

@@ -46,6 +46,9 @@ GRASS = Habit(
     tone=Trait(0.45, 0.45, 0.12),
     turn_rad=radians(15),
 )
+WHEAT_HEIGHT = 1.4
+"""Usual height in canopy diameters."""
+GRASS_HEIGHT = 0.7
 
 
 def winter_wheat(growth: float, rng: np.random.Generator) -> PlantModel:
@@ -63,7 +66,7 @@ def winter_wheat(growth: float, rng: np.random.Generator) -> PlantModel:
         foliage.add(
             pieces(stance, BLADE, cuts, WHEAT_WIDENING), [tone, tone + TIP_TONE_STEP][: len(cuts) - 1]
         )
-    return foliage.finish(PALETTES["winter-wheat"])
+    return foliage.finish(PALETTES["winter-wheat"], WHEAT_HEIGHT)
 
 
 def meadow_grass(growth: float, rng: np.random.Generator) -> PlantModel:
@@ -74,4 +77,4 @@ def meadow_grass(growth: float, rng: np.random.Generator) -> PlantModel:
     for i in range(n_blades):
         stance = GRASS.stance_from(STEM_FOOT, turn_rad + i * 2 * pi / n_blades, 0.0, rng)
         foliage.add(pieces(stance, BLADE, IN_ONE), [GRASS.tone.at(0.0, rng)])
-    return foliage.finish(PALETTES["meadow-grass"])
+    return foliage.finish(PALETTES["meadow-grass"], GRASS_HEIGHT)

@@ -26,6 +26,8 @@ LEAVES = Habit(
 NODES = ((0.4, 0.0), (1.0, 1.0))
 """Place on the stem and relative height of the two whorls."""
 FEWEST_SPOKES = 5
+HEIGHT = 0.4
+"""Usual height in canopy diameters."""
 
 
 def cleavers(growth: float, rng: np.random.Generator) -> PlantModel:
@@ -39,4 +41,4 @@ def cleavers(growth: float, rng: np.random.Generator) -> PlantModel:
             azimuth_rad = turn_rad + spoke * 2 * pi / n_spokes
             stance = LEAVES.stance_from(stem.point(station), azimuth_rad, height, rng)
             foliage.add([whole(stance, SPOKE)], [LEAVES.tone.at(height, rng)])
-    return foliage.finish(PALETTES["cleavers"])
+    return foliage.finish(PALETTES["cleavers"], HEIGHT)

@@ -5,9 +5,10 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from fieldnav.messages import Floats
 from fieldnav.simulation.rendering.cells import CELL_M, Block, Kept
 from fieldnav.simulation.rendering.light import Lighting
-from fieldnav.simulation.rendering.models import Models, padded
+from fieldnav.simulation.rendering.models import Models
 from fieldnav.simulation.rendering.palette import Band
 from fieldnav.simulation.stand import Stand
 
@@ -44,6 +45,10 @@ class Foliage:
         self._models = models
         self._bands = bands
         self._lighting = lighting
+        self._feet = np.stack([stand.x_m, stand.y_m, np.zeros(len(stand))], axis=-1)
+        self._sizes = np.stack([stand.diameter_m, stand.diameter_m, stand.height_m], axis=-1).astype(
+            np.float32
+        )
         cell = np.floor(np.stack([stand.x_m, stand.y_m], axis=-1) / CELL_M).astype(int)
         order = np.lexsort((np.arange(len(cell)), cell[:, 1], cell[:, 0]))
         places, starts = np.unique(cell[order], axis=0, return_index=True)
@@ -64,7 +69,7 @@ class Foliage:
         shifts = [np.array([p.origin[0] - origin[0], p.origin[1] - origin[1], 0], np.float32) for p in parts]
         counts = np.cumsum([0] + [len(p.top) for p in parts])
         if not parts:
-            return _no_leaves(self._models.vertices, origin)
+            return _no_leaves(self._models.outline.shape[1], origin)
         return Leaves(
             outline=np.concatenate([p.outline + shift for p, shift in zip(parts, shifts, strict=True)]),
             centre=np.concatenate([p.centre + shift for p, shift in zip(parts, shifts, strict=True)]),
@@ -82,34 +87,43 @@ class Foliage:
     def _grow_cell(self, cell: tuple[int, int]) -> Leaves:
         """The leaves of one cell's plants, in metres from the cell's corner."""
         origin = (cell[0] * CELL_M, cell[1] * CELL_M)
-        plants = self._rooted[cell]
-        grown = [self._grow_plant(int(index), origin) for index in plants]
-        outline = np.concatenate([outline for outline, _ in grown])
-        centre = (outline.min(axis=1) + outline.max(axis=1)) / 2
-        stand = self._stand
-        top = np.stack([stand.x_m[plants] - origin[0], stand.y_m[plants] - origin[1], stand.height_m[plants]])
+        rooted, stand, models = self._rooted[cell], self._stand, self._models
+        leaf, plant = models.leaves_of(stand.species[rooted], stand.variant[rooted])
+        owner = rooted[plant]
+        turn = _turns(stand.heading_rad[owner])
+        size = self._sizes[owner]
+        foot = (self._feet[rooted] - (*origin, 0.0)).astype(np.float32)
+        normal = np.einsum("nij,nj->ni", turn, models.normal[leaf])
+        top = foot.copy()
+        top[:, 2] = stand.height_m[rooted]
         return Leaves(
-            outline=outline,
-            centre=centre,
-            reach=np.linalg.norm(outline - centre[:, None], axis=-1).max(axis=1),
-            colour=np.concatenate([colour for _, colour in grown]),
-            plant=np.repeat(np.arange(len(plants), dtype=np.int32), [len(colour) for _, colour in grown]),
-            top=top.T.astype(np.float32),
-            sway_rad=stand.sway_rad[plants].astype(np.float32),
+            outline=(models.outline[leaf] @ turn.transpose(0, 2, 1)) * size[:, None] + foot[plant, None],
+            centre=np.einsum("nij,nj->ni", turn, models.centre[leaf]) * size + foot[plant],
+            reach=np.hypot(models.across[leaf] * size[:, 0], models.rise[leaf] * size[:, 2]),
+            colour=self._colours(leaf, normal),
+            plant=plant.astype(np.int32),
+            top=top,
+            sway_rad=stand.sway_rad[rooted].astype(np.float32),
             origin=origin,
         )
 
-    def _grow_plant(self, index: int, origin: tuple[float, float]) -> tuple[Reals, NDArray[np.uint8]]:
-        """Outlines and colours of one plant's leaves."""
-        stand, species = self._stand, self._stand.species[index]
-        model = self._models.variants[species][stand.variant[index]]
-        cosine, sine = np.cos(stand.heading_rad[index]), np.sin(stand.heading_rad[index])
-        turn = np.array([[cosine, sine, 0], [-sine, cosine, 0], [0, 0, 1]], np.float32)
-        size = np.array([stand.diameter_m[index], stand.diameter_m[index], stand.height_m[index]], np.float32)
-        foot = np.array([stand.x_m[index] - origin[0], stand.y_m[index] - origin[1], 0], np.float32)
-        brightness = self._lighting.on_leaves(model.normals @ turn, model.leaves[..., 2].mean(axis=1))
-        outline = padded(model.leaves, self._models.vertices) @ turn * size + foot
-        return outline, self._bands[species].pick(model.tone, brightness)
+    def _colours(self, leaf: NDArray[np.intp], normal: Reals) -> NDArray[np.uint8]:
+        """Numbers of colours of leaves that face along `normal`, shape (n, 3)."""
+        models = self._models
+        brightness = self._lighting.on_leaves(normal, models.centre[leaf, 2])
+        colour = np.zeros(len(leaf), np.uint8)
+        for species, band in enumerate(self._bands):
+            own = models.species[leaf] == species
+            colour[own] = band.pick(models.tone[leaf][own], brightness[own])
+        return colour
+
+
+def _turns(heading_rad: Floats) -> Reals:
+    """Rotations about the vertical, shape (n, 3, 3)."""
+    cosine, sine = np.cos(heading_rad), np.sin(heading_rad)
+    none, one = np.zeros_like(cosine), np.ones_like(cosine)
+    rows = [[cosine, -sine, none], [sine, cosine, none], [none, none, one]]
+    return np.moveaxis(np.array(rows, np.float32), -1, 0)
 
 
 def _no_leaves(vertices: int, origin: tuple[float, float]) -> Leaves:

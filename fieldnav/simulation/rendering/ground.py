@@ -21,6 +21,7 @@ CONTACT_PIXELS = 5.0  # blur of the darkness under a canopy
 CONTACT_DARKNESS = 0.45  # share of the sky that a closed canopy hides
 SUBPIXEL = 3  # bits
 FULL = 255
+SMALLEST_M = 0.003  # leaves reaching less than this from their middle cast no shadow
 MOTTLE_PIXELS = 1024  # period 1.28 m
 MOTTLE_CELLS = (64, 256, 512)
 MOTTLE_SPREAD = 0.42  # rms, in steps
@@ -78,8 +79,8 @@ class GroundMap:
         """How bright the ground of a cell is, 255 in the open, shape (CELL_PIXELS, CELL_PIXELS)."""
         leaves = self._shading(cell)
         share = self._lighting.sun_share
-        sun = cv2.GaussianBlur(self._cover(leaves, cell, self._lighting.shadow_per_metre), (0, 0), PENUMBRA_PIXELS)
-        sky = cv2.GaussianBlur(self._cover(leaves, cell, np.zeros(2, np.float32)), (0, 0), CONTACT_PIXELS)
+        sun = cv2.GaussianBlur(self._cover(leaves, self._lighting.shadow_per_metre), (0, 0), PENUMBRA_PIXELS)
+        sky = cv2.GaussianBlur(self._cover(leaves, np.zeros(2, np.float32)), (0, 0), CONTACT_PIXELS)
         open_sun, open_sky = 1 - sun / FULL, 1 - sky * (CONTACT_DARKNESS / FULL)
         light = FULL * (share * open_sun + (1 - share) * open_sky)
         inner = light[SHADOW_MARGIN:-SHADOW_MARGIN, SHADOW_MARGIN:-SHADOW_MARGIN]
@@ -94,25 +95,31 @@ class GroundMap:
         lower, upper = corner + np.minimum(back, 0) - beside, corner + CELL_M + np.maximum(back, 0) + beside
         return self._foliage.gather(Block.around(lower, upper).cells(), (float(corner[0]), float(corner[1])))
 
-    def _cover(self, leaves: Leaves, cell: tuple[int, int], per_metre: NDArray[np.float32]) -> Texture:
+    def _cover(self, leaves: Leaves, per_metre: NDArray[np.float32]) -> Texture:
         """Where leaves, moved sideways by `per_metre` of their height, cover the ground: 0 or 255."""
         size = SHADOW_PIXELS + 2 * SHADOW_MARGIN
         cover = np.zeros((size, size), np.uint8)
         scale = SHADOW_PIXELS / CELL_M
-        ground = leaves.outline[..., :2] + leaves.outline[..., 2:] * per_metre
+        margin_m = SHADOW_MARGIN / scale
+        middle = leaves.centre[:, :2] + leaves.centre[:, 2:] * per_metre
+        reach = leaves.reach * (1 + np.abs(per_metre).max()) + margin_m
+        near = (np.abs(middle - CELL_M / 2) < CELL_M / 2 + reach[:, None]).all(axis=1)
+        outline = leaves.outline[near & (leaves.reach > SMALLEST_M), ::2]
+        ground = outline[..., :2] + outline[..., 2:] * per_metre
         # columns run along -y and rows along -x, both from the cell's far corner
         corners = (CELL_M - ground[..., ::-1]) * scale + (SHADOW_MARGIN - 0.5)
-        lower, upper = corners.min(axis=1), corners.max(axis=1)
-        inside = (upper > 0).all(axis=1) & (lower < size).all(axis=1)
-        for outline in np.rint(corners[inside] * (1 << SUBPIXEL)).astype(np.int32):
-            cv2.fillConvexPoly(cover, outline, FULL, cv2.LINE_8, SUBPIXEL)
+        fill, outlines = cv2.fillConvexPoly, np.rint(corners * (1 << SUBPIXEL)).astype(np.int32)
+        for polygon in outlines:
+            fill(cover, polygon, FULL, cv2.LINE_8, SUBPIXEL)
         return cover
 
     def _dryness(self, cell: tuple[int, int]) -> NDArray[np.float32]:
         """Brightness by moisture, continuous over the cells' borders, shape (CELL_PIXELS, CELL_PIXELS)."""
         first_row, first_column = (-(index + 1) * MOISTURE_CELL_STEPS for index in cell)
         steps = np.arange(-1, MOISTURE_CELL_STEPS + 1)
-        part = self._moisture.take(first_row + steps, 0, mode="wrap").take(first_column + steps, 1, mode="wrap")
+        part = self._moisture.take(first_row + steps, 0, mode="wrap").take(
+            first_column + steps, 1, mode="wrap"
+        )
         scale = CELL_PIXELS // MOISTURE_CELL_STEPS
         large = cv2.resize(part, None, fx=scale, fy=scale, interpolation=cv2.INTER_LINEAR)
         return np.asarray(large[scale:-scale, scale:-scale])

@@ -9,7 +9,9 @@ from numpy.typing import NDArray
 from fieldnav.settings.field import Light
 
 LOWEST_SHADOW_DEG = 12.0  # shadows grow no longer than of a sun this low
-SUN_SHARE = 0.6  # of the brightness of sunlit ground under a clear sky that the sun gives, as a camera sees it
+SUN_SHARE = (
+    0.6  # of the brightness of sunlit ground under a clear sky that the sun gives, as a camera sees it
+)
 TRANSLUCENCY = 0.75  # brightness of a leaf lit from behind, over one lit from the front
 LOW_LEAF = 0.5  # brightness at the foot of a plant over that at its top
 TYPICAL_SIZE = 0.7  # cosine of a leaf to the sun that counts as fully lit
@@ -23,9 +25,7 @@ class Lighting:
     shadow_per_metre: NDArray[np.float32]
     sun_share: float
 
-    def on_leaves(
-        self, normals: NDArray[np.float32], height: NDArray[np.float32]
-    ) -> NDArray[np.float32]:
+    def on_leaves(self, normals: NDArray[np.float32], height: NDArray[np.float32]) -> NDArray[np.float32]:
         """Brightness of leaves, shape (n,), about 1 in full light.
 
         normals: shape (n, 3), unit, facing up; height: shape (n,), 0 at the plant's foot, 1 at its top.

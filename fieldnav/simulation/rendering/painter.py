@@ -22,12 +22,27 @@ def paint_leaves(canvas: Canvas, view: View, leaves: Leaves, wind: Wind, time_s:
     shift = (-view.projection @ camera).astype(np.float32)
     order = _visible(view, leaves, projection, shift)
     moved = wind.displacement(leaves.centre[order, 2], leaves.sway_rad[leaves.plant[order]], time_s)
-    homogeneous = leaves.outline[order] @ projection.T + (moved @ projection.T + shift)[:, None]
-    pixels = homogeneous[..., :2] / homogeneous[..., 2:]
-    outlines = np.rint(pixels * (1 << SUBPIXEL)).astype(np.int32)
+    outlines = _project(leaves.outline[order], moved, projection, shift)
     fill = cv2.fillConvexPoly
     for outline, colour in zip(outlines, leaves.colour[order].tolist(), strict=True):
         fill(canvas, outline, colour, cv2.LINE_8, SUBPIXEL)
+
+
+def _project(
+    outline: NDArray[np.float32],
+    moved: NDArray[np.float32],
+    projection: NDArray[np.float32],
+    shift: NDArray[np.float32],
+) -> NDArray[np.int32]:
+    """Outlines (n, v, 3), each moved by (n, 3), as pixels (n, v, 2) in units of 1 / 2**SUBPIXEL."""
+    count, vertices = outline.shape[:2]
+    points = (projection @ outline.reshape(-1, 3).T).reshape(3, count, vertices)
+    points += (projection @ moved.T + shift[:, None])[..., None]
+    scale = np.float32(1 << SUBPIXEL) / points[2]
+    pixels = np.empty((count, vertices, 2), np.int32)
+    pixels[..., 0] = np.rint(points[0] * scale)
+    pixels[..., 1] = np.rint(points[1] * scale)
+    return pixels
 
 
 def _visible(

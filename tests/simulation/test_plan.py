@@ -1,0 +1,209 @@
+"""Where rows run and plants stand."""
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from fieldnav.errors import SettingsError
+from fieldnav.messages import Side
+from fieldnav.settings.crop import CropProfile, Plants
+from fieldnav.settings.crop import Rows as CropRows
+from fieldnav.settings.field import FieldSettings, Gaps, Rows, Shape, Weeds
+from fieldnav.simulation.centreline import Centreline
+from fieldnav.simulation.plan import FieldPlan, sow
+
+BEET = CropProfile(
+    name="sugar-beet",
+    growth_stage="test",
+    rows=CropRows(per_lane=3, spacing_m=0.35),
+    plants=Plants(spacing_m=0.2, canopy_width_m=0.2, canopy_height_m=0.12),
+    tuned_for="tests",
+)
+TIDY_ROWS = Rows(wander_m=0, scatter_m=0, ragged_m=0)
+NO_GAPS = Gaps(germination=1, row_gaps_per_10m=0)
+NO_WEEDS = Weeds(per_m2=0, headland_per_m2=0)
+
+
+def make_field(**changes: object) -> FieldSettings:
+    plain = {"name": "test", "crop": "sugar-beet", "lanes": 3, "length_m": 20.0, "seed": 5}
+    return FieldSettings.model_validate(plain | changes)
+
+
+def places(plan: FieldPlan) -> np.ndarray:
+    return np.stack([plan.plants.x_m, plan.plants.y_m], axis=-1)
+
+
+def test_a_tidy_field_has_its_plants_on_a_grid():
+    field = make_field(rows=TIDY_ROWS, gaps=NO_GAPS, weeds=NO_WEEDS)
+    plan = sow(field, BEET, Side.RIGHT)
+    plants = plan.plants
+    assert len(plants) == 3 * 3 * 101
+    expected = -1.5 * plants.lane + 0.35 * (plants.row - 1)
+    assert np.allclose(plants.y_m, expected)
+    assert np.allclose(plan.s_first_m, 0)
+    assert np.allclose(plan.s_last_m, 20)
+
+
+@pytest.mark.parametrize(("side", "sign"), [(Side.LEFT, 1), (Side.RIGHT, -1)])
+def test_lanes_follow_each_other_on_the_side_asked_for(side, sign):
+    plan = sow(make_field(), BEET, side)
+    assert np.allclose(plan.rows.lane_n_m, [0, sign * 1.5, sign * 3.0])
+
+
+def test_the_same_seed_gives_the_same_plants_and_another_seed_others():
+    first, again = (sow(make_field(), BEET, Side.RIGHT) for _ in range(2))
+    other = sow(make_field(seed=6), BEET, Side.RIGHT)
+    assert np.array_equal(places(first), places(again))
+    assert not np.array_equal(first.plants.x_m[:50], other.plants.x_m[:50])
+
+
+def test_more_weeds_leave_the_crop_where_it_is():
+    few, many = (sow(make_field(weeds=Weeds(per_m2=n)), BEET, Side.RIGHT) for n in (1, 20))
+    assert np.array_equal(places(few)[few.plants.is_crop], places(many)[many.plants.is_crop])
+
+
+def test_a_mirrored_field_is_the_mirror_image_of_the_field_sown_to_the_other_side():
+    curved = Rows(shape=Shape.CURVED)
+    plain = sow(make_field(rows=curved), BEET, Side.RIGHT)
+    mirrored = sow(make_field(rows=curved, mirrored=True), BEET, Side.LEFT)
+    assert np.array_equal(places(mirrored), places(plain) * [1, -1])
+    assert np.array_equal(mirrored.rows.lane_n_m, -plain.rows.lane_n_m)
+    assert np.array_equal(mirrored.s_first_m, plain.s_first_m[:, ::-1])
+    s = np.linspace(-3, 23, 50)
+    assert np.array_equal(mirrored.centreline.position(s), plain.centreline.position(s) * [1, -1])
+
+
+def test_rows_in_a_mirrored_field_count_from_right_to_left_too():
+    plan = sow(make_field(mirrored=True), BEET, Side.RIGHT)
+    crop = plan.plants.is_crop & (plan.plants.lane == 0)
+    heights = [plan.plants.y_m[crop & (plan.plants.row == row)].mean() for row in range(3)]
+    assert heights == sorted(heights)
+
+
+def test_germination_thins_the_rows_by_its_share():
+    field = make_field(length_m=200, gaps=Gaps(germination=0.7, row_gaps_per_10m=0), weeds=NO_WEEDS)
+    plan = sow(field, BEET, Side.RIGHT)
+    assert len(plan.plants) / (9 * 1001) == pytest.approx(0.7, abs=0.02)
+
+
+def test_lane_gaps_empty_all_rows_of_a_lane_and_keep_both_row_ends():
+    gaps = Gaps(germination=1, row_gaps_per_10m=0, lane_gaps_per_10m=0.8, lane_gap_m=(1.5, 1.5))
+    field = make_field(length_m=100, rows=TIDY_ROWS, gaps=gaps, weeds=NO_WEEDS)
+    plan = sow(field, BEET, Side.RIGHT)
+    for lane in range(3):
+        stems = np.sort(plan.plants.x_m[plan.plants.lane == lane])
+        holes = np.diff(stems)
+        assert 3 <= (holes > 1).sum() <= 12
+        assert holes.max() < 1.5 + 2 * 0.2 + 0.2
+        assert np.diff(stems[stems < 1]).max() < 0.4
+        assert np.diff(stems[stems > 99]).max() < 0.4
+
+
+def test_rows_end_raggedly_but_within_the_limit_and_where_their_last_plants_stand():
+    plan = sow(make_field(rows=Rows(ragged_m=0.4, wander_m=0)), BEET, Side.RIGHT)
+    assert np.abs(plan.s_first_m).max() <= 0.4
+    assert np.abs(plan.s_last_m - 20).max() <= 0.4
+    assert plan.s_last_m.std() > 0.1
+    for lane in range(3):
+        for row in range(3):
+            own = plan.plants.is_crop & (plan.plants.lane == lane) & (plan.plants.row == row)
+            assert plan.plants.x_m[own].min() == pytest.approx(plan.s_first_m[lane, row], abs=1e-6)
+            assert plan.plants.x_m[own].max() == pytest.approx(plan.s_last_m[lane, row], abs=1e-6)
+
+
+def test_rows_wander_as_far_as_asked_and_mostly_together():
+    field = make_field(length_m=1000, lanes=2, rows=Rows(wander_m=0.02, scatter_m=0), weeds=NO_WEEDS)
+    plan = sow(field, BEET, Side.RIGHT)
+    straight = plan.rows.row_n_m - plan.rows.row_n_m.mean(axis=2, keepdims=True)
+    assert straight.std() == pytest.approx(0.02, rel=0.25)
+    assert np.corrcoef(straight[0, 0], straight[0, 2])[0, 1] > 0.5
+    assert abs(np.corrcoef(straight[0, 0], straight[1, 0])[0, 1]) < 0.5
+
+
+def test_uneven_row_distances_leave_the_lane_where_it_is():
+    field = make_field(rows=Rows(spacing_error=0.1, wander_m=0), lanes=20)
+    plan = sow(field, BEET, Side.RIGHT)
+    distances = np.diff(plan.rows.row_n_m[:, :, 0], axis=1)
+    assert np.abs(distances - 0.35).max() <= 0.035
+    assert distances.std() > 0.005
+    assert np.allclose(plan.rows.row_n_m[:, :, 0].mean(axis=1), plan.rows.lane_n_m)
+
+
+@pytest.mark.parametrize("patches", [0.0, 0.8])
+def test_weeds_are_as_many_as_asked_for_and_few_on_the_headland(patches):
+    weeds = Weeds(per_m2=10, headland_per_m2=0.5, patches=patches)
+    plan = sow(make_field(length_m=100, lanes=5, weeds=weeds), BEET, Side.RIGHT)
+    weed = ~plan.plants.is_crop
+    width = np.ptp(plan.rows.row_n_m) + 2 * 1.6
+    inside = (plan.plants.x_m > 0) & (plan.plants.x_m < 100)
+    assert (weed & inside).sum() / (width * 100) == pytest.approx(10, rel=0.2)
+    assert 0 < (weed & ~inside).sum() / (width * 10) < 1.5
+    assert plan.plants.diameter_m[weed].min() >= 0.02
+    assert plan.plants.diameter_m[weed].max() <= 0.08
+
+
+def test_patchy_weeds_crowd_more_than_scattered_ones():
+    def crowding(patches: float) -> float:
+        weeds = Weeds(per_m2=8, patches=patches)
+        plan = sow(make_field(length_m=60, weeds=weeds), BEET, Side.RIGHT)
+        spots = places(plan)[~plan.plants.is_crop]
+        counts = np.histogram2d(spots[:, 0], spots[:, 1], bins=[np.arange(0, 60), np.arange(-4, 1)])[0]
+        return float(counts.var() / counts.mean())
+
+    assert crowding(0.8) > 2 * crowding(0.0)
+
+
+def test_plants_near_a_point_are_those_within_the_radius():
+    plan = sow(make_field(), BEET, Side.RIGHT)
+    found = plan.plants_near((10.0, -1.0), 0.6)
+    distance = np.hypot(plan.plants.x_m - 10, plan.plants.y_m + 1)
+    assert found.tolist() == np.flatnonzero(distance <= 0.6).tolist()
+    assert len(found) > 5
+
+
+def test_the_place_in_a_lane_is_told_against_the_middle_of_its_rows():
+    plan = sow(make_field(length_m=100, rows=Rows(shape=Shape.CURVED, wander_m=0.05)), BEET, Side.RIGHT)
+    s = np.linspace(1, 99, 60)
+    middle = plan.centreline.position(s, plan.rows.lane_n(2, s))
+    found_s, offset, heading = plan.in_lane(2, middle)
+    assert np.allclose(found_s, s, atol=1e-6)
+    assert np.allclose(offset, 0, atol=1e-6)
+    steps = np.diff(middle, axis=0)
+    along = np.unwrap(np.arctan2(steps[:, 1], steps[:, 0]))
+    assert np.abs(along - (heading[1:] + heading[:-1]) / 2).max() < 0.02
+
+
+@given(s=st.floats(-10, 70), n=st.floats(-6, 6), radius=st.floats(15, 100))
+def test_projecting_a_point_of_a_curved_field_gives_back_its_coordinates(s, n, radius):
+    line = Centreline(60.0, 1 / radius, 40.0)
+    found_s, found_n, heading = line.project(line.position(s, n))
+    assert float(found_s) == pytest.approx(s, abs=1e-5)
+    assert float(found_n) == pytest.approx(n, abs=1e-5)
+    assert float(heading) == pytest.approx(float(line.heading(s)), abs=1e-6)
+
+
+def test_a_curved_centre_line_has_unit_speed_and_starts_straight():
+    line = Centreline(80.0, 1 / 25, 40.0)
+    s = np.linspace(-5, 85, 9001)
+    steps = np.diff(line.position(s), axis=0)
+    assert np.allclose(np.hypot(steps[:, 0], steps[:, 1]), s[1] - s[0], rtol=1e-5)
+    assert float(line.heading(0)) == 0
+    assert np.allclose(line.position([-5, 0]), [[-5, 0], [0, 0]])
+    assert np.abs(line.curvature(s)).max() == pytest.approx(1 / 25, rel=1e-3)
+
+
+def test_a_bend_too_tight_for_its_lanes_is_refused_by_name():
+    with pytest.raises(SettingsError, match=r"rows.radius_m 8"):
+        sow(make_field(lanes=10, rows=Rows(shape=Shape.CURVED, radius_m=8)), BEET, Side.RIGHT)
+    with pytest.raises(SettingsError, match="wavelength_m"):
+        sow(make_field(rows=Rows(shape=Shape.CURVED, wavelength_m=300)), BEET, Side.RIGHT)
+
+
+def test_a_crop_that_cannot_be_drawn_is_refused_and_a_variety_is_drawn_as_its_crop():
+    assert (
+        sow(make_field(), BEET.model_copy(update={"name": "sugar-beet-late"}), Side.LEFT).species[0]
+        == "sugar-beet"
+    )
+    with pytest.raises(SettingsError, match="tulip"):
+        sow(make_field(), BEET.model_copy(update={"name": "tulip"}), Side.LEFT)
