@@ -27,7 +27,7 @@ def open_bus(settings: Bus) -> can.BusABC:
             bitrate=settings.bitrate,
             ignore_config=True,
         )
-    except (can.CanError, OSError, ValueError, ImportError) as error:
+    except (can.CanError, OSError, ValueError, ImportError, NotImplementedError) as error:
         raise DriverError(
             f"CAN bus cannot be opened: interface {settings.interface}, channel {settings.channel}: {error}"
         ) from error

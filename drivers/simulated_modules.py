@@ -46,7 +46,7 @@ class SimulatedModules:
         self._delay_s = can_delay_s
         self._waiting: deque[tuple[float, Telegram]] = deque()
         self._tick: int | None = None
-        self._battery = SimulatedBattery()
+        self.battery = SimulatedBattery()
         errors = errors or {}
         self.modules = {
             wheel: SimulatedModule(robot.modules[wheel], errors.get(wheel, FAULTLESS)) for wheel in Wheel
@@ -75,15 +75,15 @@ class SimulatedModules:
         now_s = now_ms / MILLISECONDS_PER_SECOND
         for module in self.modules.values():
             module.advance(now_s, TICK_S)
-        self._battery.advance(
+        self.battery.advance(
             TICK_S, sum(module.motion.battery_current_a for module in self.modules.values())
         )
         while self._waiting and self._waiting[0][0] <= now_s + TOLERANCE_S:
             self._deliver(now_s, self._waiting.popleft()[1])
         for module, voice in self._voices:
-            for kind, values in voice.speak(now_ms, self._battery.voltage_v):
+            for kind, values in voice.speak(now_ms, self.battery.voltage_v):
                 self._say(now_s, module, kind, values)
-        for kind, values in self._battery.speak(now_ms):
+        for kind, values in self.battery.speak(now_ms):
             self._bus.send(self._layout.frame(now_s, NO_NODE, kind, values))
 
     def _deliver(self, now_s: float, telegram: Telegram) -> None:

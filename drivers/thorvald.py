@@ -23,6 +23,9 @@ RETRY_S = 0.5
 START_LIMIT_S = 5.0
 """How long bringing up may take: twice the 2 s in which TPDO4 tells both its parts, and one; our choice."""
 
+TOLERANCE_S = 1e-6
+"""A period that ticks fill exactly must not slip by one for the rounding of times."""
+
 LAST_SEQUENCE = 2**31 - 1
 """RPDO1 counts in a signed 32 bit number; after the last comes 0."""
 
@@ -78,7 +81,7 @@ class ThorvaldWheels:
                 self._send_zero(now_s)
             if back or now_s - self._asked_s >= RETRY_S:
                 self._ask(now_s)
-            if now_s - self._heartbeat_s >= self._timeouts.heartbeat_s:
+            if now_s - self._heartbeat_s >= self._timeouts.heartbeat_s - TOLERANCE_S:
                 self._beat(now_s)
             self._check(now_s)
         reports = {wheel: link.report for wheel, link in self._links.items()}

@@ -21,7 +21,7 @@ class Coasting:
         self.cameras: tuple[CameraName, ...] = (direction.leading,)
         self._task, self._direction, self._lane = task, direction, lane
         self._agreement = Agreement(AGREEING_FRAMES)
-        self._end = Emptiness(task.crop.row_end)
+        self._end = Emptiness(task.crop.row_end.confirm_s, task.crop.row_end.confirm_m)
         self._entered_m: float | None = None
         self._step = Step(Motion(Twist(vx_mps=direction.sign * task.crop.speeds.acquire_mps)))
 

@@ -1,14 +1,13 @@
 """The row end as a decision over time and distance (paper phases 1 and 2)."""
 
 from fieldnav.messages import Evidence
-from fieldnav.settings.crop import RowEnd
 
 
 class Emptiness:
     """How long, and over what distance, a part of the view has held no crop."""
 
-    def __init__(self, limits: RowEnd) -> None:
-        self._limits = limits
+    def __init__(self, confirm_s: float, confirm_m: float) -> None:
+        self._confirm_s, self._confirm_m = confirm_s, confirm_m
         self._since: tuple[float, float] | None = None
         self.time_s = 0.0
         self.distance_m = 0.0
@@ -21,10 +20,10 @@ class Emptiness:
             return False
         since_s, since_m = self._since = self._since or (now_s, travelled_m)
         self.time_s, self.distance_m = now_s - since_s, abs(travelled_m - since_m)
-        return self.time_s >= self._limits.confirm_s and self.distance_m >= self._limits.confirm_m
+        return self.time_s >= self._confirm_s and self.distance_m >= self._confirm_m
 
     def evidence(self, where: str) -> tuple[Evidence, ...]:
         return (
-            Evidence(f"no crop in the {where} for", self.time_s, self._limits.confirm_s, "s"),
-            Evidence(f"no crop in the {where} over", self.distance_m, self._limits.confirm_m, "m"),
+            Evidence(f"no crop in the {where} for", self.time_s, self._confirm_s, "s"),
+            Evidence(f"no crop in the {where} over", self.distance_m, self._confirm_m, "m"),
         )

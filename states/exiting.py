@@ -29,7 +29,7 @@ class Exiting:
         self._task, self._direction, self._lane = task, direction, lane
         self._found = Agreement(AGREEING_FRAMES)
         self._again = Agreement(FRAMES_TO_RETURN)
-        self._end = Emptiness(task.crop.row_end)
+        self._end = Emptiness(task.crop.row_end.exit_confirm_s, task.crop.row_end.exit_confirm_m)
         self._entered_m: float | None = None
         lane.trailing = None
         self._step = Step(self._ahead(0.0))

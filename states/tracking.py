@@ -22,7 +22,7 @@ class Tracking:
     def __init__(self, task: Task, direction: Direction, lane: LaneMemory) -> None:
         self.cameras: tuple[CameraName, ...] = (direction.leading,)
         self._task, self._direction, self._lane = task, direction, lane
-        self._end = Emptiness(task.crop.row_end)
+        self._end = Emptiness(task.crop.row_end.confirm_s, task.crop.row_end.confirm_m)
         self._well_seen_s: float | None = None
         self._step = Step()
 

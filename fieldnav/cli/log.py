@@ -33,7 +33,9 @@ def list_runs(runs: RunsOption = RUNS, json: JsonOption = False) -> None:
 
 @log.command()
 def show(
-    run: Annotated[str, typer.Argument(help="A run's name or a part of it, its path, or 'last'.")] = "last",
+    run: Annotated[
+        str, typer.Argument(help="A run's name, its path, or 'last'; of a part of a name, the newest run.")
+    ] = "last",
     runs: RunsOption = RUNS,
     json: JsonOption = False,
 ) -> None:

@@ -47,7 +47,7 @@ def transitions_table(lines: Sequence[Line]) -> Table:
             line.event,
             "" if line.lane is None else str(line.lane),
             "" if line.rows is None else str(line.rows),
-            "; ".join(part for part in (line.reason, *map(judgement, decisive(line.evidence))) if part),
+            "\n".join(part for part in (line.reason, *map(judgement, decisive(line.evidence))) if part),
         )
         for line in lines
     ]

@@ -68,7 +68,7 @@ def runs_in(parent: Path) -> list[RunDirectory]:
 
 
 def find_run(name_or_path: str, parent: Path) -> RunDirectory:
-    """The run that 'last', a name, a part of one name only, or a path stands for. Raises FieldnavError."""
+    """The run that 'last', a path, or a name stands for; of a part of a name, the newest. Raises FieldnavError."""
     runs = runs_in(parent)
     if name_or_path == "last":
         if not runs:
@@ -77,14 +77,8 @@ def find_run(name_or_path: str, parent: Path) -> RunDirectory:
     given = RunDirectory(Path(name_or_path))
     if given.journal.exists():
         return given
-    named = [run for run in runs if run.path.name == name_or_path]
-    matching = named or [run for run in runs if name_or_path and name_or_path in run.path.name]
-    if len(matching) == 1:
-        return matching[0]
-    if matching:
-        raise FieldnavError(
-            f"run '{name_or_path}' fits {', '.join(run.path.name for run in matching)}; give more of it"
-        )
+    if matching := [run for run in runs if name_or_path and name_or_path in run.path.name]:
+        return next((run for run in matching if run.path.name == name_or_path), matching[0])
     raise FieldnavError(
         f"no run '{name_or_path}' in {parent}; allowed is last, a name of `fieldnav log list`, or a path"
     )

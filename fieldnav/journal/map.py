@@ -15,6 +15,9 @@ from matplotlib.lines import Line2D
 from fieldnav.errors import OutputError
 from fieldnav.messages import Floats
 
+OTHER = "Other"
+"""Standing still before and after the lanes: no stretch of the path, and so not in the legend."""
+
 PHASE_COLOURS = {
     "Follow": "#1f6fb4",
     "Acquiring": "#6cc5e8",
@@ -23,7 +26,7 @@ PHASE_COLOURS = {
     "Sidestep": "#d4357f",
     "Paused": "#8c8c8c",
     "Fault": "#d01c1c",
-    "Other": "#404040",
+    OTHER: "#404040",
 }
 """A colour a phase; a state takes that of the innermost of its names that is listed here."""
 
@@ -80,7 +83,7 @@ def draw_map(path: Path, run: RunMap) -> None:
 def phase_of(state: str) -> str:
     """The phase that a state's name, its parents' names before it, belongs to."""
     names = state.replace(".", "_").split("_")
-    return next((name for name in reversed(names) if name in PHASE_COLOURS), "Other")
+    return next((name for name in reversed(names) if name in PHASE_COLOURS), OTHER)
 
 
 def _extent(run: RunMap) -> tuple[Floats, Floats]:
@@ -117,7 +120,7 @@ def _draw_path(axes: Axes, run: RunMap) -> list[str]:
     )
     axes.plot(*run.path_m[0], marker="o", color="white", markeredgecolor=INK, markersize=9, zorder=5)
     axes.plot(*run.path_m[-1], marker="s", color=INK, markeredgecolor="white", markersize=9, zorder=5)
-    return [phase for phase in PHASE_COLOURS if phase in phases]
+    return [phase for phase in PHASE_COLOURS if phase in phases and phase != OTHER]
 
 
 def _mark(axes: Axes, run: RunMap) -> None:

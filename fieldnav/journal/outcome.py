@@ -6,7 +6,6 @@ from pydantic import BaseModel, ConfigDict
 
 from fieldnav.errors import FieldnavError
 from fieldnav.journal.directory import RunDirectory
-from fieldnav.journal.entry import Line
 from fieldnav.journal.journal import read
 from fieldnav.journal.summary import Summary, read_summary
 
@@ -45,7 +44,7 @@ def overview(directory: RunDirectory) -> Overview:
         path=path,
         outcome=_outcome(summary),
         last_state=last.target if last else "",
-        reason=_reason(last) if last and not (summary and summary.completed) else "",
+        reason=last.reason if last and not (summary and summary.completed) else "",
         seconds=last.stamp_s if last else 0.0,
         summary=summary,
     )
@@ -55,7 +54,3 @@ def _outcome(summary: Summary | None) -> Outcome:
     if summary is None:
         return Outcome.BROKEN_OFF
     return Outcome.FINISHED if summary.completed else Outcome.STOPPED
-
-
-def _reason(last: Line) -> str:
-    return last.reason or last.event

@@ -14,8 +14,9 @@ from fieldnav.settings.crop import CropProfile
 
 ROUNDS = 2  # of fitting a fresh lane
 CLEARLY_BETTER = 1.15  # a comb elsewhere is taken over the lines' when it scores so many times more
-EVIDENCE = 4.0  # natural logarithm of how much likelier rows are than plants strewn about, with lines found
-EVIDENCE_WITHOUT_LINES = 8.0  # and without
+# Natural logarithm of how much likelier rows are than plants strewn about: weeds alone reach 2.5, six plants 4.
+EVIDENCE = 3.0
+EVIDENCE_WITHOUT_LINES = 5.0
 SPREAD = 1.3  # standard deviation about a row just found, against that about the true one
 STRAY = 0.3  # share of the plants that is no crop
 LINE_OFFSET_PRIOR_M = 0.05  # standard deviation of a found line's distance from its row

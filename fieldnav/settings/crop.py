@@ -76,6 +76,16 @@ class RowEnd(Settings):
 
     confirm_s: Seconds = 0.4
     confirm_m: float = Field(default=0.15, gt=0, le=3)
+    exit_confirm_s: Seconds = Field(
+        default=0.1,
+        description="the same when leaving; the leading camera has seen no row for metres by then",
+    )
+    exit_confirm_m: float = Field(
+        default=0.03,
+        gt=0,
+        le=1,
+        description="every centimetre more is less of the rows left to see and to count",
+    )
     longest_gap_m: float = Field(
         default=2.0, ge=0, le=10, description="stretch without any plant that is no row end"
     )

@@ -5,7 +5,7 @@ file of the user's own.
 """
 
 import json
-from collections.abc import Hashable
+from collections.abc import Hashable, Mapping
 from importlib.resources import files
 from pathlib import Path
 from typing import Any, TypeVar
@@ -22,7 +22,7 @@ from fieldnav.settings.model import Settings
 from fieldnav.settings.problems import describe, nearest
 from fieldnav.settings.robot import Robot
 
-__all__ = ["Kind", "check_fit", "load", "load_crop", "load_field", "load_robot", "names_of"]
+__all__ = ["Kind", "check_fit", "load", "load_crop", "load_field", "load_robot", "names_of", "revised"]
 
 MOST_PROBLEMS = 3
 """Problems of one file that are reported at once; a line of more is not read."""
@@ -68,7 +68,10 @@ def load(kind: Kind, name_or_path: str | Path) -> CropProfile | Robot | FieldSet
 
 def parse(model: type[Model], text: str, label: str) -> Model:
     """Settings from the text of a file that messages call `label`. Raises SettingsError."""
-    document = parse_mapping(text, label)
+    return _checked(model, parse_mapping(text, label), label)
+
+
+def _checked(model: type[Model], document: Mapping[Any, Any], label: str) -> Model:
     try:
         # Strict JSON rules refuse "yes" for a number and 2.5 for a count, but take enums and lists.
         return model.model_validate_json(json.dumps(_plain(document)), strict=True)
@@ -76,6 +79,12 @@ def parse(model: type[Model], text: str, label: str) -> Model:
         lines = describe(error, model)
         rest = f"; and {len(lines) - MOST_PROBLEMS} more" if len(lines) > MOST_PROBLEMS else ""
         raise SettingsError(f"{label}: {'; '.join(lines[:MOST_PROBLEMS])}{rest}") from error
+
+
+def revised(settings: Model, changes: Mapping[str, Any], label: str = "options") -> Model:
+    """The same settings with some top-level values changed, checked like a file. Raises SettingsError."""
+    document = settings.model_dump(mode="json") | dict(changes)
+    return _checked(type(settings), document, label)
 
 
 def _load(kind: Kind, model: type[Model], name_or_path: str | Path) -> Model:
@@ -98,7 +107,7 @@ def _label(kind: Kind, name_or_path: str | Path) -> str:
 
 def _plain(value: Any) -> Any:
     """The same document in JSON's types; dates and the like become the text they were written as."""
-    if isinstance(value, dict):
+    if isinstance(value, Mapping):
         return {_key(key): _plain(entry) for key, entry in value.items()}
     if isinstance(value, list | tuple | set):
         return [_plain(entry) for entry in value]

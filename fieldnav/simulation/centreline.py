@@ -40,15 +40,15 @@ class Centreline:
 
     def curvature(self, s: ArrayLike) -> Floats:
         """Curvature at `s`, 1/m, positive to the left; zero beyond both ends."""
-        s = np.asarray(s, dtype=float)
-        within = (s >= 0) & (s <= self.length_m)
-        return np.where(within, self.curvature_per_m * np.sin(2 * pi * s / self.wavelength_m), 0.0)
+        at = np.asarray(s, dtype=float)
+        within = (at >= 0) & (at <= self.length_m)
+        return np.where(within, self.curvature_per_m * np.sin(2 * pi * at / self.wavelength_m), 0.0)
 
     def heading(self, s: ArrayLike) -> Floats:
         """Direction of travel at `s`, rad, counter-clockwise from the world's x."""
-        s = np.clip(np.asarray(s, dtype=float), 0.0, self.length_m)
+        within = np.clip(np.asarray(s, dtype=float), 0.0, self.length_m)
         swing = self.curvature_per_m * self.wavelength_m / (2 * pi)
-        return np.asarray(swing * (1 - np.cos(2 * pi * s / self.wavelength_m)))
+        return np.asarray(swing * (1 - np.cos(2 * pi * within / self.wavelength_m)))
 
     def position(self, s: ArrayLike, n: ArrayLike = 0.0) -> Floats:
         """World points, shape (..., 2), at distances `s` along the line and `n` to its left."""

@@ -1,4 +1,4 @@
-"""The plan of a simulated field: where every row runs and every plant stands. The simulation's ground truth."""
+"""The plan of a simulated field: where every row runs and every plant stands. The ground truth."""
 
 from dataclasses import dataclass
 from math import pi
@@ -45,7 +45,7 @@ class FieldPlan:
 
     @property
     def rows_per_lane(self) -> int:
-        return self.rows.row_n_m.shape[1]
+        return int(self.rows.row_n_m.shape[1])
 
     def plants_near(self, xy: ArrayLike, radius_m: float) -> NDArray[np.int64]:
         """Indices of the plants whose stems stand within `radius_m` of a world point (2,), in order."""
@@ -96,7 +96,7 @@ def crop_species(name: str) -> str:
         if name.startswith(species):
             return species
     raise SettingsError(
-        f"crop {name}: the simulation cannot draw it; its name must begin with one of {', '.join(CROP_SPECIES)}"
+        f"crop {name}: the simulation cannot draw it; names it knows begin with {', '.join(CROP_SPECIES)}"
     )
 
 

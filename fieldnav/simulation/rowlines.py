@@ -34,11 +34,11 @@ class RowLines:
 
     def row_n(self, lane: int, row: int, s: ArrayLike) -> Floats:
         """Distance n of a row from the field's centre line, at distances `s`."""
-        return np.asarray(np.interp(s, self.s_m, self.row_n_m[lane, row]))
+        return np.asarray(np.interp(np.asarray(s, dtype=float), self.s_m, self.row_n_m[lane, row]))
 
     def lane_n(self, lane: int, s: ArrayLike) -> Floats:
         """The same for the middle of a lane's rows: the line that a perfect robot drives."""
-        return np.asarray(np.interp(s, self.s_m, self.row_n_m[lane].mean(axis=0)))
+        return np.asarray(np.interp(np.asarray(s, dtype=float), self.s_m, self.row_n_m[lane].mean(axis=0)))
 
     def mirrored(self) -> "RowLines":
         """The same lines with left and right exchanged; rows keep their order from right to left."""

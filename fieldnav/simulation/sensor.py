@@ -1,7 +1,7 @@
 """The camera's lens and sensor: softness, motion blur, vignetting, exposure that drifts, noise.
 
-What a frame suffers depends on the seed and the frame's sequence number alone, so frames may be exposed in any
-order, or not at all.
+What a frame suffers depends on the seed and the frame's sequence number alone, so frames may be
+exposed in any order, or not at all.
 """
 
 from math import hypot, pi, sin, sqrt
@@ -41,7 +41,8 @@ class Sensor:
 
         motion_px: how far the scene moves over the picture, x and y, while the shutter is open.
         """
-        blurred = _blur(cv2.GaussianBlur(image, LENS_WINDOW_PX, LENS_SIGMA_PX), motion_px)
+        soft = np.asarray(cv2.GaussianBlur(image, LENS_WINDOW_PX, LENS_SIGMA_PX), dtype=np.uint8)
+        blurred = _blur(soft, motion_px)
         cv2.multiply(blurred, self._vignette, dst=image, scale=self.gain(sequence) / FULL)
         if self._errors.noise > 0:
             part = self._noise_part(sequence, image)
@@ -95,7 +96,7 @@ def _blur(image: Image, motion_px: tuple[float, float]) -> Image:
 
 def _averaged(image: Image, shift_px: NDArray[np.float64]) -> Image:
     """The mean of a picture and itself shifted; the share of the shifted keeps the smear's variance."""
-    x, y = (int(round(shift)) for shift in shift_px)
+    x, y = (round(shift) for shift in shift_px)
     if x == 0 and y == 0:
         x, y = (int(np.sign(s)) if abs(s) == np.abs(shift_px).max() else 0 for s in shift_px)
     ratio = min(hypot(*shift_px) / hypot(x, y), 1.0)

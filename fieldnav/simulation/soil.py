@@ -113,7 +113,7 @@ def _domes(random: np.random.Generator, radius_m: float, per_m2: float) -> NDArr
 
 def _litter(ground: Ground, towards_sun: tuple[float, float], random: np.random.Generator) -> Texture:
     """Stones and straw, each with a dark rim on the side away from the sun."""
-    texture = np.full((LITTER_PIXELS, LITTER_PIXELS), BARE, np.uint8)
+    texture: Texture = np.full((LITTER_PIXELS, LITTER_PIXELS), BARE, np.uint8)
     area_m2 = (LITTER_PIXELS * PIXEL_M) ** 2
     rim = -np.array(towards_sun) * CAST_PIXELS
     for _ in range(random.poisson(STONES_PER_M2 * ground.stones * area_m2)):

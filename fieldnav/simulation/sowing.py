@@ -70,7 +70,7 @@ def _places(field: FieldSettings, crop: CropProfile, rows: RowLines, lane: int, 
     random = random_stream(field.seed, Stream.CROP_PLACE, lane, row)
     jitter = random.standard_normal(count) * SPACING_JITTER * crop.plants.spacing_m
     jitter[[0, -1]] = 0
-    return np.clip(np.linspace(start, end, count) + jitter, start, end)
+    return np.asarray(np.clip(np.linspace(start, end, count) + jitter, start, end))
 
 
 def _survivors(

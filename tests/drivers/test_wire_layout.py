@@ -127,7 +127,7 @@ def test_a_right_angle_is_510_per_mille_of_the_steering_limit():
     assert steering_to_per_mille(MODULE, pi / 2) == 510  # 1.5708 / 3.078
 
 
-def test_a_turn_of_the_wheel_is_175543_encoder_counts():
+def test_a_turn_of_the_wheel_is_four_counts_a_pulse_times_the_gear():
     assert steering_to_counts(MODULE, 2 * pi) == 175542  # 1024 * 4 * 42.857 = 175542.3
     assert steering_to_counts(Module(node_id=1, encoder_pulses=4096), 2 * pi) == 702169
 

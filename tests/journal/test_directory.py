@@ -77,16 +77,20 @@ def test_a_run_is_found_by_last_by_name_by_part_and_by_path(tmp_path: Path) -> N
     assert find_run(str(old.path), tmp_path / "nowhere") == old
 
 
-def test_a_run_that_is_none_or_several_is_an_error(tmp_path: Path) -> None:
+def test_a_run_that_is_none_is_an_error(tmp_path: Path) -> None:
     run_in(tmp_path, "demo")
-    run_in(tmp_path, "beans", START + timedelta(days=1))
 
     with pytest.raises(FieldnavError, match="no run 'maize' in"):
         find_run("maize", tmp_path)
-    with pytest.raises(FieldnavError, match="fits 20260502T083015Z-beans, 20260501T083015Z-demo"):
-        find_run("202605", tmp_path)
     with pytest.raises(FieldnavError, match="holds no runs"):
         find_run("last", tmp_path / "nowhere")
+
+
+def test_a_part_of_several_names_stands_for_the_newest(tmp_path: Path) -> None:
+    run_in(tmp_path, "demo")
+    newest = run_in(tmp_path, "demo", START + timedelta(days=1))
+
+    assert find_run("demo", tmp_path) == newest
 
 
 def test_of_runs_with_numbers_the_plain_name_is_the_first(tmp_path: Path) -> None:

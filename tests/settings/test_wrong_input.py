@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 from fieldnav.errors import SettingsError
 from fieldnav.settings.crop import CropProfile
 from fieldnav.settings.kinds import Kind, kind_of_document, kinds_named
-from fieldnav.settings.loading import load, load_crop, load_field, load_robot, parse
+from fieldnav.settings.loading import load, load_crop, load_field, load_robot, parse, revised
 
 TEXT = {
     kind: (files("config") / kind.value / f"{name}.yaml").read_text()
@@ -224,6 +224,18 @@ def test_a_number_in_powers_of_ten_is_a_number() -> None:
     crop = parse(CropProfile, TEXT[Kind.CROP] + "vegetation: {smallest_area_m2: 5e-4}\n", "mine.yaml")
 
     assert crop.vegetation.smallest_area_m2 == 0.0005
+
+
+def test_options_are_checked_like_a_file() -> None:
+    demo = load_field("demo")
+
+    assert revised(demo, {"lanes": 2, "length_m": 30}) == demo.model_copy(
+        update={"lanes": 2, "length_m": 30.0}
+    )
+    with pytest.raises(
+        SettingsError, match="options: lanes: 0 is not allowed; allowed is a whole number from 1"
+    ):
+        revised(demo, {"lanes": 0})
 
 
 def test_a_name_shared_by_kinds_stands_for_each_of_them() -> None:

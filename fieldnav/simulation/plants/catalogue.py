@@ -41,7 +41,7 @@ WEED_SPECIES: tuple[str, ...] = tuple(_WEEDS)
 
 
 def grow(species: str, growth: float, rng: np.random.Generator) -> PlantModel:
-    """One variant of a species, at `growth` 0 to 1 within its stage; equal generators give equal plants.
+    """One variant of a species, at `growth` within its stage, clipped to 0..1; equal generators, equal plants.
 
     Raises KeyError for a species that is neither in CROP_SPECIES nor in WEED_SPECIES.
     """

@@ -20,7 +20,7 @@ FLOOR = (-np.inf, -np.inf, 0.0)
 """No leaf hangs below the ground."""
 SECTORS = 8
 """Directions about the stem over which the canopy's reach is averaged."""
-FLATTEST_UP = 0.3
+FLATTEST_UP = 0.45
 """Least upward part of a normal before it is made unit: thin upright blades let light through from behind."""
 
 

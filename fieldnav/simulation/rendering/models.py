@@ -18,9 +18,9 @@ GROWTH = (0.25, 1.0)  # of the variants, within the crop's stage
 class Models:
     """Leaves of all variants of all species, those of one variant together, in the order of painting.
 
-    outline: shape (n, v, 3), normalised as in PlantModel, short ones repeat their last vertex; normal: (n, 3);
-    tone: (n,); centre: (n, 3), middle of the outline; across, rise: (n,), from there to the farthest vertex,
-    horizontally and vertically; species: (n,); first, count: shape (species, variants), where a variant's
+    outline: shape (n, v, 3), normalised as in PlantModel, short ones repeat their last vertex;
+    normal: (n, 3); tone: (n,); centre: (n, 3), middle of the outline; across, rise: (n,), from there to the
+    farthest vertex, horizontally and vertically; species: (n,); first, count: shape (species, variants), where a variant's
     leaves begin and how many they are; palettes: one a species.
     """
 

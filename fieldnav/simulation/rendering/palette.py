@@ -38,7 +38,7 @@ class Band:
     def light(self) -> Floats:
         """Brightness of the entries of a row, shape (lights,), once the mottle is added."""
         step = (BRIGHTEST - DARKEST) / (self.lights - 1 - 2 * MOTTLE)
-        return DARKEST + step * (np.arange(self.lights) - MOTTLE)
+        return np.asarray(DARKEST + step * (np.arange(self.lights) - MOTTLE), dtype=float)
 
     def pick(self, tone: NDArray[np.float32], brightness: NDArray[np.float32]) -> NDArray[np.uint8]:
         """Colour numbers for leaves of a tone, 0 to 1, and a brightness; all of shape (n,)."""

@@ -1,0 +1,105 @@
+import subprocess
+import sys
+from importlib.resources import files
+
+import can
+import pytest
+
+from drivers.can_log import LoggedBus, open_bus, open_virtual_pair
+from drivers.simulated_modules import SimulatedModules
+from drivers.thorvald import ThorvaldWheels
+from drivers.wire_layout import wire_layout
+from fieldnav.errors import DriverError
+from fieldnav.messages import Wheel, WheelSetpoint
+from fieldnav.settings.robot import Bus
+
+
+def drive(robot, path, seconds=3.0):
+    """A short drive with everything there is on the bus; the number of frames the far end and the host sent."""
+    host, far = open_virtual_pair()
+    tap = can.interfaces.virtual.VirtualBus(host.channel_id, preserve_timestamps=True)
+    wheels = ThorvaldWheels(robot, LoggedBus(host, path, "can0"))
+    modules = SimulatedModules(robot, far, can_delay_s=0.005)
+    wheels.start(0.0)
+    for tick in range(round(seconds * 50)):
+        now_s = tick * 0.02
+        modules.step(now_s)
+        wheels.poll(now_s)
+        wheels.command(now_s, dict.fromkeys(Wheel, WheelSetpoint(0.5, 0.1)))
+    wheels.emergency_stop(seconds)
+    modules.step(seconds + 0.1)
+    wheels.poll(seconds + 0.1)
+    count = 0
+    while tap.recv(timeout=0) is not None:
+        count += 1
+    wheels.close()
+    for bus in (far, tap):
+        bus.shutdown()
+    return count
+
+
+def test_every_frame_is_in_the_log_once_and_in_order(robot, tmp_path):
+    sent = drive(robot, tmp_path / "can.log")
+
+    with can.CanutilsLogReader(tmp_path / "can.log") as reader:
+        frames = list(reader)
+    assert len(frames) == sent
+    stamps = [frame.timestamp for frame in frames]
+    assert stamps == sorted(stamps)
+    assert {frame.channel for frame in frames} == {"can0"}
+    assert {frame.arbitration_id for frame in frames if not frame.is_rx} >= {0x000, 0x201, 0x501, 0x601, 0x77F}
+    assert {frame.arbitration_id for frame in frames if frame.is_rx} >= {0x81, 0x181, 0x281, 0x381, 0x481, 0x3C1}
+    assert all(wire_layout().read(frame) is not None for frame in frames)
+
+
+def test_cantools_decodes_every_line_of_the_log(robot, tmp_path):
+    drive(robot, tmp_path / "can.log", seconds=1.2)
+    lines = (tmp_path / "can.log").read_text()
+
+    done = subprocess.run(
+        [sys.executable, "-m", "cantools", "decode", "-s", str(files("config").joinpath("thorvald.dbc"))],
+        input=lines,
+        capture_output=True,
+        text=True,
+        check=True,
+    )
+
+    decoded = done.stdout.splitlines()
+    assert len(decoded) == len(lines.splitlines())
+    assert all(" :: " in line and line.endswith(")") and "Unknown" not in line for line in decoded)
+
+
+def test_the_same_drive_gives_the_same_log_byte_for_byte(robot, tmp_path):
+    drive(robot, tmp_path / "one.log")
+    drive(robot, tmp_path / "two.log")
+
+    assert (tmp_path / "one.log").read_bytes() == (tmp_path / "two.log").read_bytes()
+
+
+def test_the_log_is_on_the_disk_up_to_the_last_second_before_it_is_closed(tmp_path):
+    host, far = open_virtual_pair()
+    bus = LoggedBus(host, tmp_path / "can.log", "can0")
+    for tenth in range(31):
+        bus.send(can.Message(timestamp=tenth / 10, arbitration_id=0x77F, is_extended_id=False, data=[5]))
+
+    assert "(3.000000) can0 77F#05 T\n" in (tmp_path / "can.log").read_text()
+    bus.shutdown()
+    bus.shutdown()
+    far.shutdown()
+
+
+def test_two_virtual_pairs_do_not_hear_each_other():
+    one, two = open_virtual_pair(), open_virtual_pair()
+    one[0].send(can.Message(arbitration_id=1, is_extended_id=False))
+
+    assert one[1].recv(timeout=0) is not None
+    assert two[1].recv(timeout=0) is None
+    for bus in (*one, *two):
+        bus.shutdown()
+
+
+def test_a_bus_that_is_not_there_is_named():
+    with pytest.raises(DriverError, match="interface socketcan, channel nowhere0"):
+        open_bus(Bus(interface="socketcan", channel="nowhere0"))
+    with pytest.raises(DriverError, match="interface pigeon"):
+        open_bus(Bus(interface="pigeon", channel="can0"))
