@@ -133,13 +133,15 @@ class ModuleLink:
 
     @property
     def objection(self) -> str | None:
-        """What about the module is not as in the robot file or not well, with both values; None when all is."""
+        """What about the module is not well or not as in the robot file, with both values; else None."""
         if self._constants is not None:
             wanted = {"DriveDirection": self.module.drive_direction, "HomeCount": self.module.home_count}
             for quantity, expected in wanted.items():
                 found = round(self._constants[quantity])
                 if found != expected:
-                    return f"{self.name}: {quantity} is {found} in the module but {expected} in the robot file"
+                    return (
+                        f"{self.name}: {quantity} is {found} in the module but {expected} in the robot file"
+                    )
         if self.fault_flags:
             return f"{self.name} reports faults: {words(FaultFlag(self.fault_flags & ALL_FAULTS))}"
         return None

@@ -75,9 +75,7 @@ class SimulatedModules:
         now_s = now_ms / MILLISECONDS_PER_SECOND
         for module in self.modules.values():
             module.advance(now_s, TICK_S)
-        self.battery.advance(
-            TICK_S, sum(module.motion.battery_current_a for module in self.modules.values())
-        )
+        self.battery.advance(TICK_S, sum(module.motion.battery_current_a for module in self.modules.values()))
         while self._waiting and self._waiting[0][0] <= now_s + TOLERANCE_S:
             self._deliver(now_s, self._waiting.popleft()[1])
         for module, voice in self._voices:

@@ -9,10 +9,9 @@ from contextlib import suppress
 
 import can
 
+from drivers.host_line import HostLine
 from drivers.module_link import Missing, ModuleLink
-from drivers.module_units import speed_to_per_mille, steering_to_per_mille
-from drivers.thorvald_protocol import Kind, NmtCommand, NodeState, RoboteqObject, SdoCommand
-from drivers.wire_layout import NO_NODE, wire_layout
+from drivers.thorvald_protocol import RoboteqObject
 from fieldnav.errors import DriverError
 from fieldnav.messages import Wheel, WheelReport, WheelSetpoint
 from fieldnav.settings.robot import Robot
@@ -26,24 +25,19 @@ START_LIMIT_S = 5.0
 TOLERANCE_S = 1e-6
 """A period that ticks fill exactly must not slip by one for the rounding of times."""
 
-LAST_SEQUENCE = 2**31 - 1
-"""RPDO1 counts in a signed 32 bit number; after the last comes 0."""
-
 
 class ThorvaldWheels:
     """Four drive-and-steer modules on one bus. Raises DriverError for a node id that the DBC file lacks."""
 
     def __init__(self, robot: Robot, bus: can.BusABC) -> None:
-        self._layout = wire_layout()
-        self._bus = bus
+        self._line = HostLine(bus)
         self._timeouts = robot.timeouts
         self._links = {wheel: ModuleLink(wheel, robot.modules[wheel]) for wheel in Wheel}
         self._by_node = {link.module.node_id: link for link in self._links.values()}
         for link in self._links.values():
-            if link.module.node_id not in self._layout.nodes:
-                allowed = ", ".join(map(str, sorted(self._layout.nodes)))
+            if link.module.node_id not in self._line.nodes:
+                allowed = ", ".join(map(str, sorted(self._line.nodes)))
                 raise DriverError(f"{link.name}: the wire layout thorvald.dbc has only nodes {allowed}")
-        self._sequence = 0
         self._started = False
         self._starting_s = 0.0
         self._asked_s = 0.0
@@ -66,7 +60,7 @@ class ThorvaldWheels:
         self._started = True
         for link in self._links.values():
             link.begin(now_s)
-        self._send_zero(now_s)
+        self._send(now_s, {})
         self._ask(now_s)
         self._beat(now_s)
 
@@ -78,7 +72,7 @@ class ThorvaldWheels:
         back = self._receive(now_s)
         if self._started:
             if back or now_s - self._commanded_s > self._timeouts.command_s:
-                self._send_zero(now_s)
+                self._send(now_s, {})
             if back or now_s - self._asked_s >= RETRY_S:
                 self._ask(now_s)
             if now_s - self._heartbeat_s >= self._timeouts.heartbeat_s - TOLERANCE_S:
@@ -102,39 +96,32 @@ class ThorvaldWheels:
     def stop(self, now_s: float) -> None:
         """Command zero speed at the present steering angles; never raises."""
         with suppress(DriverError):
-            self._send_zero(now_s)
+            self._send(now_s, {})
 
     def emergency_stop(self, now_s: float) -> None:
         """Zero, then the controllers' own emergency stop. Not a safety function: the contactor is."""
-        self._send_zero(now_s)
-        self._write_object(now_s, RoboteqObject.EMERGENCY_STOP)
+        self._send(now_s, {})
+        self._set(now_s, RoboteqObject.EMERGENCY_STOP)
 
     def release_emergency_stop(self, now_s: float) -> None:
         """Zero, then let the controllers run again; only ever on the explicit act of a person."""
-        self._send_zero(now_s)
-        self._write_object(now_s, RoboteqObject.EMERGENCY_STOP_RELEASE)
+        self._send(now_s, {})
+        self._set(now_s, RoboteqObject.EMERGENCY_STOP_RELEASE)
 
     def close(self) -> None:
-        self._bus.shutdown()
+        self._line.close()
 
     def _receive(self, now_s: float) -> bool:
         """Drain the bus; whether a module came back from silence or from a reboot."""
         back = False
-        while (frame := self._next_frame()) is not None:
-            telegram = self._layout.read(frame)
-            link = self._by_node.get(telegram.node) if telegram else None
-            if telegram and link:
+        for telegram in self._line.received():
+            link = self._by_node.get(telegram.node)
+            if link:
                 link.take(telegram, now_s)
                 back |= link.rebooted or (link.silent and link.heard_s == now_s)
         if back:
             self._starting_s = now_s
         return back
-
-    def _next_frame(self) -> can.Message | None:
-        try:
-            return self._bus.recv(timeout=0)
-        except can.CanError as error:
-            raise DriverError(f"CAN bus cannot be read: {error}") from error
 
     def _check(self, now_s: float) -> None:
         limit_s = self._timeouts.module_s
@@ -162,41 +149,25 @@ class ThorvaldWheels:
         """Ask every module for what it still has to say."""
         self._asked_s = now_s
         for link in self._links.values():
-            node = link.module.node_id
             if link.missing is Missing.STATE:
-                self._put(now_s, NO_NODE, Kind.NMT, Command=NmtCommand.START, Node=node)
+                self._line.start_node(now_s, link.module)
             if link.fault_flags is None:
-                self._request(now_s, node, SdoCommand.READ, RoboteqObject.FAULT_FLAGS)
+                self._line.read_object(now_s, link.module, RoboteqObject.FAULT_FLAGS)
 
     def _beat(self, now_s: float) -> None:
         self._heartbeat_s = now_s
-        self._put(now_s, NO_NODE, Kind.HOST_HEARTBEAT, State=NodeState.OPERATIONAL)
+        self._line.beat(now_s)
 
-    def _send_zero(self, now_s: float) -> None:
-        self._send(now_s, {})
+    def _set(self, now_s: float, entry: RoboteqObject) -> None:
+        for link in self._links.values():
+            self._line.set_object(now_s, link.module, entry)
 
     def _send(self, now_s: float, setpoints: Mapping[Wheel, WheelSetpoint]) -> None:
-        self._sequence = self._sequence + 1 if self._sequence < LAST_SEQUENCE else 0
+        """A set-point for each module; zero at its present angle for a wheel that is not mentioned."""
+        self._line.begin_command()
         for wheel, link in self._links.items():
             point = setpoints.get(wheel)
-            speed = speed_to_per_mille(link.module, point.speed_mps) if point else 0
-            self._put(now_s, link.module.node_id, Kind.DRIVE, Sequence=self._sequence, DriveSpeed=speed)
+            self._line.drive(now_s, link.module, point.speed_mps if point else 0.0)
             steering_rad = point.steering_rad if point else link.steering_rad
             if steering_rad is not None:  # a wheel whose angle is not known is left where it is
-                angle = steering_to_per_mille(link.module, steering_rad)
-                self._put(now_s, link.module.node_id, Kind.STEER, MaximumSteeringSpeed=0, SteeringAngle=angle)
-
-    def _write_object(self, now_s: float, entry: RoboteqObject) -> None:
-        for link in self._links.values():
-            self._request(now_s, link.module.node_id, SdoCommand.WRITE_1_BYTE, entry, value=1)
-
-    def _request(
-        self, now_s: float, node: int, command: SdoCommand, entry: RoboteqObject, value: int = 0
-    ) -> None:
-        self._put(now_s, node, Kind.SDO_REQUEST, Command=command, Index=entry, Subindex=0, Value=value)
-
-    def _put(self, now_s: float, node: int, kind: Kind, **values: float) -> None:
-        try:
-            self._bus.send(self._layout.frame(now_s, node, kind, values))
-        except can.CanError as error:
-            raise DriverError(f"CAN bus cannot be written: {error}") from error
+                self._line.steer(now_s, link.module, steering_rad)

@@ -2,11 +2,14 @@
 
 from math import degrees
 
+import numpy as np
+
 from fieldnav.control.servoing import yaw_rate
 from fieldnav.messages import CameraName, Centres, Direction, Evidence, Frame, Motion, Twist
+from fieldnav.perception.canopy import canopy_plane
 from fieldnav.perception.parts import in_part
 from fieldnav.perception.perceive import lane_of
-from fieldnav.perception.row_end import ImagePart, centres_in_rows
+from fieldnav.perception.row_end import ImagePart, centres_in_rows, nearest_crop_m
 from fieldnav.perception.tracking import feature, start, track
 from fieldnav.perception.vegetation import find_plants
 from fieldnav.pinhole import Pinhole
@@ -21,6 +24,10 @@ FRAMES_TO_RETURN = 4
 """So many frames of the leading camera must agree that rows have come again: the end was a gap."""
 
 
+SLOWEST_MPS = 0.08
+APPROACH_PER_S = 1.0
+
+
 class Exiting:
     """Steers by the trailing camera until its lower half is empty; goes back to following if rows come again."""
 
@@ -32,7 +39,7 @@ class Exiting:
         self._end = Emptiness(task.crop.row_end.exit_confirm_s, task.crop.row_end.exit_confirm_m)
         self._entered_m: float | None = None
         lane.trailing = None
-        self._step = Step(self._ahead(0.0))
+        self._step = Step(self._ahead(0.0, task.crop.speeds.exit_mps))
 
     def step(self, seen: Observation) -> Step:
         if self._entered_m is None:
@@ -70,7 +77,7 @@ class Exiting:
                 return Step(
                     Motion(), Event.FAIL, evidence, Sight(frame, (), centres), "no rows behind to leave by"
                 )
-            return Step(self._ahead(0.0), None, evidence, Sight(frame, (), centres))
+            return Step(self._ahead(0.0, crop.speeds.exit_mps), None, evidence, Sight(frame, (), centres))
         line = feature(rows.rows, camera)
         turn_rps = yaw_rate(line, camera, -crop.speeds.exit_mps, crop.servoing)
         behind = int(centres_in_rows(centres, rows.rows, crop, camera, ImagePart.BOTTOM).sum())
@@ -85,7 +92,8 @@ class Exiting:
         if driven_m > 2 * whole_m:
             return Step(Motion(), Event.FAIL, evidence, sight, "crop behind does not end")
         if not (ended and driven_m > whole_m / 2):
-            return Step(self._ahead(turn_rps), None, evidence, sight)
+            speed_mps = self._speed_mps(centres, camera)
+            return Step(self._ahead(turn_rps, speed_mps), None, evidence, sight)
         last = self._lane.number >= self._task.lanes
         return Step(Motion(), Event.LAST_LANE_LEFT if last else Event.LANE_LEFT, evidence, sight)
 
@@ -98,6 +106,15 @@ class Exiting:
         if self._found.add(fit) and fit:
             self._lane.trailing = start(fit, stamp_s)
 
-    def _ahead(self, turn_rps: float) -> Motion:
-        speed_mps = self._direction.sign * self._task.crop.speeds.exit_mps
-        return Motion(Twist(vx_mps=speed_mps, yaw_rate_rps=turn_rps))
+    def _speed_mps(self, centres: Centres, camera: Pinhole) -> float:
+        """Slower as the last plants near the middle of the view: every centimetre past it is less of them to see."""
+        assert self._lane.trailing, "the rows behind are tracked"
+        crop = self._task.crop
+        nearest_m = nearest_crop_m(centres, self._lane.trailing.rows, crop, camera)
+        middle = np.array([camera.centre_x_px, camera.centre_y_px])
+        middle_m = float(canopy_plane(camera, crop).to_ground(middle)[0])
+        left_m = max(0.0, middle_m - nearest_m) if nearest_m is not None else 0.0
+        return min(crop.speeds.exit_mps, SLOWEST_MPS + APPROACH_PER_S * left_m)
+
+    def _ahead(self, turn_rps: float, speed_mps: float) -> Motion:
+        return Motion(Twist(vx_mps=self._direction.sign * speed_mps, yaw_rate_rps=turn_rps))

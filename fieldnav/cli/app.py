@@ -64,8 +64,7 @@ def run(arguments: list[str] | None = None) -> int:
         print_error(str(error))
         return FAILED
     except (KeyboardInterrupt, typer.Abort):
-        print_error("interrupted")
-        return INTERRUPTED
+        status = INTERRUPTED  # some versions of typer return it instead
     except BrokenPipeError:
         # The reader has gone, as `head` does; standard output must not be flushed into it again at exit.
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
@@ -74,6 +73,8 @@ def run(arguments: list[str] | None = None) -> int:
         if line := _usage(error):
             print_error(line)
         return FAILED
+    if status == INTERRUPTED:
+        print_error("interrupted")
     return status if isinstance(status, int) else OK
 
 

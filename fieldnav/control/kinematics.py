@@ -111,7 +111,9 @@ def _inverts(
     near = turn_rad <= hysteresis_rad
     if abs(along_rad) > min(inf if near else reach_rad, steering_limit_rad):
         return abs(against_rad) <= steering_limit_rad
-    return turn_rad > inversion_rad + hysteresis_rad and abs(against_rad) <= reach_rad
+    return turn_rad > inversion_rad + hysteresis_rad and abs(against_rad) <= min(
+        reach_rad, steering_limit_rad
+    )
 
 
 def _mean(pairs: list[tuple[float, float]]) -> tuple[float, float]:

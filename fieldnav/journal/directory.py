@@ -68,7 +68,7 @@ def runs_in(parent: Path) -> list[RunDirectory]:
 
 
 def find_run(name_or_path: str, parent: Path) -> RunDirectory:
-    """The run that 'last', a path, or a name stands for; of a part of a name, the newest. Raises FieldnavError."""
+    """The run that 'last', a path, or a name stands for; of a part, the newest. Raises FieldnavError."""
     runs = runs_in(parent)
     if name_or_path == "last":
         if not runs:

@@ -99,7 +99,7 @@ class Gate:
         return self._send(now_s, Motion(STANDSTILL, self._steering), self._standing(present), reason)
 
     def _rest(self, now_s: float, dt_s: float, present: Mapping[Wheel, float]) -> Passed:
-        """Come to rest within the limits, at once when a module says nothing; then stand, wheels as they are."""
+        """Come to rest within the limits, at once if a module is silent; then stand, wheels as they are."""
         self._error_rad = inf
         ramped = limit(Motion(STANDSTILL, self._steering), self._twist, dt_s, self._limits)
         if ramped.twist == STANDSTILL or len(present) < len(Wheel):

@@ -33,8 +33,8 @@ MEMBER = 0.6
 """A plant belongs to a row within this share of the canopy's width."""
 WINDOW = 1.0
 """Width of the sliding window over the canopy's width."""
-ROW_MASS = 0.6
-"""Canopy in the window that makes a row, in squares of the canopy's width; a weed or two have less."""
+ROW_MASS = 0.25
+"""Canopy in the window that makes a row, in squares of the canopy's width: half a plant; most weeds have less."""
 SMALLEST_MASS = 1e-6
 ROUNDS = 2
 
@@ -192,7 +192,7 @@ def _beyond(across: Floats, weight: Floats, least_m: float, crop: CropProfile) -
     half = WINDOW * crop.plants.canopy_width_m / 2
     inside = np.abs(places[None, :] - places[:, None]) <= half
     heavy = inside @ mass
-    enough = (heavy >= ROW_MASS) & (inside.sum(axis=1) >= crop.tracking.fewest_centres)
+    enough = heavy >= ROW_MASS
     if not enough.any():
         return None
     first = places[enough].min()

@@ -14,8 +14,8 @@ from fieldnav.settings.crop import CropProfile
 
 ROUNDS = 2  # of fitting a fresh lane
 CLEARLY_BETTER = 1.15  # a comb elsewhere is taken over the lines' when it scores so many times more
-# Natural logarithm of how much likelier rows are than plants strewn about: weeds alone reach 2.5, six plants 4.
-EVIDENCE = 3.0
+# Natural logarithm of how much likelier rows are than plants strewn about: weeds alone reach 3, six plants 4.
+EVIDENCE = 3.5
 EVIDENCE_WITHOUT_LINES = 5.0
 SPREAD = 1.3  # standard deviation about a row just found, against that about the true one
 STRAY = 0.3  # share of the plants that is no crop

@@ -16,7 +16,8 @@ from fieldnav.simulation.rendering.painter import paint_leaves
 from fieldnav.simulation.rendering.palette import colour_table, share_bands
 from fieldnav.simulation.rendering.view import View
 from fieldnav.simulation.rendering.wind import make_wind
-from fieldnav.simulation.soil import Texture, make_soil
+from fieldnav.simulation.soil import make_soil
+from fieldnav.simulation.texture import Texture
 
 __all__ = ["FieldRenderer", "View"]
 

@@ -15,7 +15,7 @@ from fieldnav.settings.robot import Bus
 
 
 def drive(robot, path, seconds=3.0):
-    """A short drive with everything there is on the bus; the number of frames the far end and the host sent."""
+    """A short drive with everything there is on the bus; how many frames both ends sent."""
     host, far = open_virtual_pair()
     tap = can.interfaces.virtual.VirtualBus(host.channel_id, preserve_timestamps=True)
     wheels = ThorvaldWheels(robot, LoggedBus(host, path, "can0"))
@@ -26,6 +26,8 @@ def drive(robot, path, seconds=3.0):
         modules.step(now_s)
         wheels.poll(now_s)
         wheels.command(now_s, dict.fromkeys(Wheel, WheelSetpoint(0.5, 0.1)))
+    modules.step(seconds)
+    wheels.poll(seconds)
     wheels.emergency_stop(seconds)
     modules.step(seconds + 0.1)
     wheels.poll(seconds + 0.1)
@@ -47,8 +49,21 @@ def test_every_frame_is_in_the_log_once_and_in_order(robot, tmp_path):
     stamps = [frame.timestamp for frame in frames]
     assert stamps == sorted(stamps)
     assert {frame.channel for frame in frames} == {"can0"}
-    assert {frame.arbitration_id for frame in frames if not frame.is_rx} >= {0x000, 0x201, 0x501, 0x601, 0x77F}
-    assert {frame.arbitration_id for frame in frames if frame.is_rx} >= {0x81, 0x181, 0x281, 0x381, 0x481, 0x3C1}
+    assert {frame.arbitration_id for frame in frames if not frame.is_rx} >= {
+        0x000,
+        0x201,
+        0x501,
+        0x601,
+        0x77F,
+    }
+    assert {frame.arbitration_id for frame in frames if frame.is_rx} >= {
+        0x81,
+        0x181,
+        0x281,
+        0x381,
+        0x481,
+        0x3C1,
+    }
     assert all(wire_layout().read(frame) is not None for frame in frames)
 
 

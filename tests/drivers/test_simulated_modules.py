@@ -262,7 +262,9 @@ def test_an_object_that_is_not_there_is_aborted(line):
 
     replies = [values for _, _, kind, values in line.pass_time(0.05) if kind is Kind.SDO_REPLY]
 
-    assert [(reply["Command"], reply["Index"], reply["Value"]) for reply in replies] == [(0x80, 0x1234, 0x06020000)]
+    assert [(reply["Command"], reply["Index"], reply["Value"]) for reply in replies] == [
+        (0x80, 0x1234, 0x06020000)
+    ]
 
 
 def test_driving_costs_current_and_warms_the_module_and_drains_the_battery(line):

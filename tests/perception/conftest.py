@@ -1,13 +1,14 @@
 """Drawn fields: green discs along rows, seen by the pinhole camera; every place is known exactly."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from math import radians, tan
+from types import SimpleNamespace
 
 import cv2
 import numpy as np
 import pytest
 
-from fieldnav.messages import Image
+from fieldnav.messages import Image, RowLine
 from fieldnav.perception.canopy import canopy_plane
 from fieldnav.pinhole import Pinhole
 from fieldnav.settings.crop import CropProfile
@@ -15,22 +16,11 @@ from fieldnav.settings.crop import CropProfile
 SOIL_BGR = (72, 96, 122)
 LEAF_BGR = (50, 150, 70)
 GREY_NOISE = 3.0
-Draw = Callable[..., Image]
 
 
 def pinhole(width_px: int = 1280) -> Pinhole:
     focal_px = width_px / 2 / tan(radians(69) / 2)
     return Pinhole(width_px, width_px * 9 // 16, focal_px, 1.0, radians(65), 0.75)
-
-
-@pytest.fixture
-def camera() -> Pinhole:
-    return pinhole()
-
-
-@pytest.fixture
-def beet() -> CropProfile:
-    return profile(per_lane=3, spacing_m=0.35)
 
 
 def profile(per_lane: int, spacing_m: float, **plants: float) -> CropProfile:
@@ -43,11 +33,6 @@ def profile(per_lane: int, spacing_m: float, **plants: float) -> CropProfile:
             "tuned_for": "tests",
         }
     )
-
-
-@pytest.fixture
-def draw() -> Draw:
-    return draw_field
 
 
 def stand(
@@ -67,9 +52,7 @@ def stand(
     for row in set(range(count)) - set(without):
         place = ((count - 1) / 2 - row) * crop.rows.spacing_m
         x = along + rng.normal(0, scatter_m, along.shape) + (0.3 * crop.plants.spacing_m) * row
-        rows.append(
-            np.stack([x, offset_m + place + slope * x + rng.normal(0, scatter_m, x.shape)], axis=-1)
-        )
+        rows.append(np.stack([x, offset_m + place + slope * x + rng.normal(0, scatter_m, x.shape)], axis=-1))
     return np.concatenate(rows)
 
 
@@ -97,3 +80,34 @@ def draw_field(
             cv2.circle(image, centre, round(radius * 16), LEAF_BGR, cv2.FILLED, cv2.LINE_AA, 4)
     grain = np.random.default_rng(seed).normal(0, noise, image.shape)
     return np.asarray(np.clip(image + grain, 0, 255), np.uint8)
+
+
+def rows_in_image(
+    crop: CropProfile, camera: Pinhole, offset_m: float = 0.0, slope: float = 0.0
+) -> list[RowLine]:
+    """Where the rows of a lane truly lie in the picture, left to right."""
+    count, plane = crop.rows.per_lane, canopy_plane(camera, crop)
+    places = [((count - 1) / 2 - row) * crop.rows.spacing_m for row in range(count)]
+    return [plane.row_in_image(offset_m + place, slope) for place in places]
+
+
+def strewn(count: int, seed: int) -> np.ndarray:
+    """Places of weeds anywhere in the view, shape (count, 2)."""
+    rng = np.random.default_rng(seed)
+    return np.stack([rng.uniform(0.75, 1.9, count), rng.uniform(-0.9, 0.9, count)], axis=-1)
+
+
+@pytest.fixture(scope="session")
+def drawn() -> SimpleNamespace:
+    """The tools of this file; a fixture, since test files cannot import it."""
+    return SimpleNamespace(
+        camera=pinhole(),
+        pinhole=pinhole,
+        beet=profile(per_lane=3, spacing_m=0.35),
+        profile=profile,
+        stand=stand,
+        picture=draw_field,
+        rows=rows_in_image,
+        strewn=strewn,
+        soil=SOIL_BGR,
+    )

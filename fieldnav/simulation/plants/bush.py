@@ -14,7 +14,7 @@ BALM_LEAF = Shape(
     half_widths=(0.08, 0.28, 0.36, 0.30, 0.16, 0.02),
 )
 BALM = Habit(
-    length=Trait(0.29, 0.2, 0.02),
+    length=Trait(0.26, 0.2, 0.02),
     rise_rad=Trait.degrees(12, 35, 6),
     bend_rad=Trait.degrees(45, 45),
     tone=Trait(0.2, 0.65, 0.06),
@@ -35,7 +35,7 @@ BALM_MIDDLE = Stance(STEM_FOOT, azimuth_rad=0.0, rise_rad=radians(90), bend_rad=
 BALM_MIDDLE_STATIONS = (0.6, 0.8, 1.0)
 BALM_SERRATION = 0.07
 """Unevenness of the blade's edge."""
-BALM_HEART = (0.3, 0.25)
+BALM_HEART = (0.26, 0.3)
 """Radius and height of the bush's dark inside."""
 BALM_SMALLEST_SCALE = 0.9
 """Length of the outer stems when the stage begins; 1 at its end."""

@@ -41,7 +41,9 @@ WEED_SPECIES: tuple[str, ...] = tuple(_WEEDS)
 
 
 def grow(species: str, growth: float, rng: np.random.Generator) -> PlantModel:
-    """One variant of a species, at `growth` within its stage, clipped to 0..1; equal generators, equal plants.
+    """One variant of a species; equal generators give equal plants.
+
+    `growth` is the progress within the stage, clipped to 0..1.
 
     Raises KeyError for a species that is neither in CROP_SPECIES nor in WEED_SPECIES.
     """

@@ -1,7 +1,7 @@
 """Leaf colours: blue, green, red anchors from a species' darkest leaf to its palest rib.
 
 Chosen by eye against outdoor photographs of field crops, in which sunlit leaves show green of 110 to 190
-and red above blue; the wax on winter wheat greys it and brings its blue up to its red.
+and red above blue; the wax on winter wheat greys it and brings its blue up near its red.
 """
 
 from types import MappingProxyType
@@ -17,7 +17,7 @@ _ANCHORS: dict[str, tuple[tuple[int, int, int], ...]] = {
     "lemon-balm": ((36, 94, 70), (50, 134, 104), (68, 166, 134), (96, 190, 166)),
     "maize": ((36, 92, 58), (50, 130, 84), (74, 162, 114), (124, 188, 156)),
     "soybean": ((44, 92, 62), (64, 130, 88), (88, 160, 118), (108, 162, 132)),
-    "winter-wheat": ((64, 98, 64), (90, 138, 92), (114, 168, 118), (132, 182, 138)),
+    "winter-wheat": ((64, 98, 70), (90, 140, 100), (112, 170, 126), (130, 184, 146)),
     "shepherds-purse": ((44, 86, 60), (62, 118, 82), (84, 146, 106), (96, 142, 128)),
     "chickweed": ((46, 106, 68), (62, 146, 92), (84, 176, 120), (110, 180, 140)),
     "meadow-grass": ((40, 100, 66), (58, 142, 98), (82, 176, 132), (112, 190, 156)),

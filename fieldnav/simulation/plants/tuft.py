@@ -19,7 +19,7 @@ ARCHING = Habit(
     length=Trait(0.95, 0.95, 0.1),
     rise_rad=Trait.degrees(68, 68, 8),
     bend_rad=Trait.degrees(92, 92, 14),
-    tone=Trait(0.4, 0.4, 0.12),
+    tone=Trait(0.5, 0.5, 0.12),
     roll_rad=radians(25),
 )
 ERECT_BLADES = 5
@@ -27,7 +27,7 @@ ERECT = Habit(
     length=Trait(0.75, 0.75, 0.12),
     rise_rad=Trait.degrees(64, 64, 8),
     bend_rad=Trait.degrees(15, 15),
-    tone=Trait(0.42, 0.42, 0.14),
+    tone=Trait(0.52, 0.52, 0.14),
     roll_rad=radians(25),
 )
 TIP_TONE_STEP = 0.12

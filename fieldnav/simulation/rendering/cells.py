@@ -7,7 +7,7 @@ from typing import Generic, NamedTuple, TypeVar
 import numpy as np
 
 from fieldnav.messages import Floats
-from fieldnav.simulation.soil import PIXEL_M
+from fieldnav.simulation.texture import PIXEL_M
 
 CELL_PIXELS = 320
 CELL_M = CELL_PIXELS * PIXEL_M  # 0.4 m

@@ -14,7 +14,7 @@ from fieldnav.simulation.stand import Stand
 
 Reals = NDArray[np.float32]
 
-CELLS_KEPT = 1500
+CELLS_KEPT = 500
 BLOCKS_KEPT = 4  # two cameras, each on the border of two blocks
 
 

@@ -9,13 +9,14 @@ from fieldnav.simulation.rendering.cells import CELL_M, CELL_PIXELS, Block, Kept
 from fieldnav.simulation.rendering.foliage import Foliage, Leaves
 from fieldnav.simulation.rendering.light import Lighting
 from fieldnav.simulation.rendering.palette import MOTTLE
-from fieldnav.simulation.soil import BARE, PIXEL_M, Soil, Texture, repeating_noise
+from fieldnav.simulation.soil import Soil
 from fieldnav.simulation.streams import Stream, random_stream
+from fieldnav.simulation.texture import BARE, PIXEL_M, Texture, repeating_noise
 
 CELLS_KEPT = 260  # 27 MB
 BLOCKS_KEPT = 4
 SHADOW_PIXELS = 160  # a cell's shadows are painted at half resolution
-SHADOW_MARGIN = 12  # of them, for the blur to be the same on both sides of a cell's border
+SHADOW_MARGIN = 16  # of them, for the blur to be the same on both sides of a cell's border
 PENUMBRA_PIXELS = 0.9
 CONTACT_PIXELS = 5.0  # blur of the darkness under a canopy
 CONTACT_DARKNESS = 0.45  # share of the sky that a closed canopy hides
@@ -85,7 +86,7 @@ class GroundMap:
         light = FULL * (share * open_sun + (1 - share) * open_sky)
         inner = light[SHADOW_MARGIN:-SHADOW_MARGIN, SHADOW_MARGIN:-SHADOW_MARGIN]
         large = cv2.resize(inner, (CELL_PIXELS, CELL_PIXELS), interpolation=cv2.INTER_LINEAR)
-        return np.clip(large * self._dryness(cell), 0, FULL).astype(np.uint8)
+        return np.asarray(np.clip(large * self._dryness(cell), 0, FULL), dtype=np.uint8)
 
     def _shading(self, cell: tuple[int, int]) -> Leaves:
         """Leaves of all plants whose shadow may reach a cell."""

@@ -14,7 +14,7 @@ SUN_SHARE = (
 )
 TRANSLUCENCY = 0.75  # brightness of a leaf lit from behind, over one lit from the front
 LOW_LEAF = 0.5  # brightness at the foot of a plant over that at its top
-TYPICAL_SIZE = 0.7  # cosine of a leaf to the sun that counts as fully lit
+TYPICAL_FACING = 0.7  # cosine of a leaf to the sun that counts as fully lit
 
 
 @dataclass(frozen=True, slots=True)
@@ -31,7 +31,7 @@ class Lighting:
         normals: shape (n, 3), unit, facing up; height: shape (n,), 0 at the plant's foot, 1 at its top.
         """
         facing = normals @ self.towards_sun
-        sun = np.where(facing >= 0, facing, -facing * TRANSLUCENCY) / TYPICAL_SIZE
+        sun = np.where(facing >= 0, facing, -facing * TRANSLUCENCY) / TYPICAL_FACING
         sky = (1 + normals[:, 2]) / 2
         depth = LOW_LEAF + (1 - LOW_LEAF) * np.sqrt(height)
         return np.asarray(depth * (self.sun_share * sun + (1 - self.sun_share) * sky), dtype=np.float32)

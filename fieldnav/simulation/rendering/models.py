@@ -20,8 +20,8 @@ class Models:
 
     outline: shape (n, v, 3), normalised as in PlantModel, short ones repeat their last vertex;
     normal: (n, 3); tone: (n,); centre: (n, 3), middle of the outline; across, rise: (n,), from there to the
-    farthest vertex, horizontally and vertically; species: (n,); first, count: shape (species, variants), where a variant's
-    leaves begin and how many they are; palettes: one a species.
+    farthest vertex, horizontally and vertically; species: (n,); first, count: (species, variants), where a
+    variant's leaves begin and how many they are; palettes: one a species.
     """
 
     outline: Reals

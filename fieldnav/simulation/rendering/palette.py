@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fieldnav.messages import Floats
-from fieldnav.simulation.soil import SOIL_MEAN, SOIL_STEPS
+from fieldnav.simulation.texture import SOIL_MEAN, SOIL_STEPS
 
 COLOURS = 256
 CROP_TONES, CROP_LIGHTS = 6, 14
@@ -46,7 +46,7 @@ class Band:
         painted = self.lights - 1 - 2 * MOTTLE
         step = (brightness - DARKEST) / (BRIGHTEST - DARKEST) * painted
         column = np.clip(np.rint(step), 0, painted)
-        return (self.first + row * self.lights + column).astype(np.uint8)
+        return np.asarray(self.first + row * self.lights + column, dtype=np.uint8)
 
 
 def share_bands(species: int) -> list[Band]:

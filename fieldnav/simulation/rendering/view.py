@@ -6,7 +6,7 @@ import numpy as np
 
 from fieldnav.messages import Floats
 
-FARTHEST_M = 7.0  # of ground that is looked at; beyond it a picture only needs to be filled
+FARTHEST_M = 4.5  # of ground that is looked at; beyond it a picture only needs to be filled
 LEAST_DROP = 1e-3  # rays this flat never reach the ground
 
 

@@ -1,0 +1,84 @@
+"""The host's side of the bus: the telegrams it sends, and those it takes in."""
+
+from collections.abc import Iterator
+
+import can
+
+from drivers.module_units import speed_to_per_mille, steering_to_per_mille
+from drivers.thorvald_protocol import Kind, NmtCommand, NodeState, RoboteqObject, SdoCommand
+from drivers.wire_layout import NO_NODE, Telegram, wire_layout
+from fieldnav.errors import DriverError
+from fieldnav.settings.robot import Module
+
+LAST_SEQUENCE = 2**31 - 1
+"""RPDO1 counts in a signed 32 bit number; after the last comes 0."""
+
+
+class HostLine:
+    """What the host says to the modules. Every method raises DriverError when the bus refuses."""
+
+    def __init__(self, bus: can.BusABC) -> None:
+        self._bus = bus
+        self._layout = wire_layout()
+        self.sequence = 0
+
+    @property
+    def nodes(self) -> frozenset[int]:
+        """The node ids that the wire layout has."""
+        return self._layout.nodes
+
+    def received(self) -> Iterator[Telegram]:
+        """All telegrams that wait on the bus, without waiting; frames of another layout are left out."""
+        while (frame := self._next_frame()) is not None:
+            telegram = self._layout.read(frame)
+            if telegram is not None:
+                yield telegram
+
+    def begin_command(self) -> None:
+        """The next round of set-points has a new sequence number."""
+        self.sequence = self.sequence + 1 if self.sequence < LAST_SEQUENCE else 0
+
+    def drive(self, now_s: float, module: Module, speed_mps: float) -> None:
+        """Speed set-point, clipped to the motor's top speed."""
+        speed = speed_to_per_mille(module, speed_mps)
+        self._send(now_s, module.node_id, Kind.DRIVE, Sequence=self.sequence, DriveSpeed=speed)
+
+    def steer(self, now_s: float, module: Module, steering_rad: float) -> None:
+        """Steering set-point, clipped to the steering limit."""
+        angle = steering_to_per_mille(module, steering_rad)
+        self._send(now_s, module.node_id, Kind.STEER, MaximumSteeringSpeed=0, SteeringAngle=angle)
+
+    def start_node(self, now_s: float, module: Module) -> None:
+        self._send(now_s, NO_NODE, Kind.NMT, Command=NmtCommand.START, Node=module.node_id)
+
+    def beat(self, now_s: float) -> None:
+        """The host's own heartbeat."""
+        self._send(now_s, NO_NODE, Kind.HOST_HEARTBEAT, State=NodeState.OPERATIONAL)
+
+    def read_object(self, now_s: float, module: Module, entry: RoboteqObject) -> None:
+        self._request(now_s, module, SdoCommand.READ, entry, 0)
+
+    def set_object(self, now_s: float, module: Module, entry: RoboteqObject) -> None:
+        """Write 1 to an object that acts when written."""
+        self._request(now_s, module, SdoCommand.WRITE_1_BYTE, entry, 1)
+
+    def close(self) -> None:
+        self._bus.shutdown()
+
+    def _request(
+        self, now_s: float, module: Module, command: SdoCommand, entry: RoboteqObject, value: int
+    ) -> None:
+        values = {"Command": command, "Index": entry, "Subindex": 0, "Value": value}
+        self._send(now_s, module.node_id, Kind.SDO_REQUEST, **values)
+
+    def _send(self, now_s: float, node: int, kind: Kind, **values: float) -> None:
+        try:
+            self._bus.send(self._layout.frame(now_s, node, kind, values))
+        except can.CanError as error:
+            raise DriverError(f"CAN bus cannot be written: {error}") from error
+
+    def _next_frame(self) -> can.Message | None:
+        try:
+            return self._bus.recv(timeout=0)
+        except can.CanError as error:
+            raise DriverError(f"CAN bus cannot be read: {error}") from error
