@@ -27,10 +27,10 @@ def of_mask(mask: NDArray[np.uint8]) -> tuple[NDArray[np.int32], Regions]:
     _, labels, stats, centroids = cv2.connectedComponentsWithStats(
         mask, connectivity=CONNECTIVITY, ltype=cv2.CV_32S
     )
-    numbers = stats[1:].astype(np.float64)
+    numbers, centre = np.asarray(stats[1:], np.float64), np.asarray(centroids[1:], np.float64)
     top, area = numbers[:, cv2.CC_STAT_TOP], numbers[:, cv2.CC_STAT_AREA]
-    bottom = np.asarray(top + numbers[:, cv2.CC_STAT_HEIGHT] - 1, np.float64)
-    return np.asarray(labels, np.int32), Regions(area, centroids[1:, 0], centroids[1:, 1], top, bottom)
+    bottom = top + numbers[:, cv2.CC_STAT_HEIGHT] - 1
+    return np.asarray(labels, np.int32), Regions(area, centre[:, 0], centre[:, 1], top, bottom)
 
 
 def divide(labels: NDArray[np.int32], found: Regions, sections: NDArray[np.int64]) -> Regions:

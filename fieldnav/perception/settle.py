@@ -58,8 +58,8 @@ def settle(
 def evidence(comb: Comb, plants: GroundPlants, crop: CropProfile, plane: Pinhole) -> float:
     """How much likelier the plants are with these rows than strewn over the view, as a natural logarithm.
 
-    Each plant adds its likelihood ratio, by its weight: normally distributed about the nearest row, or, with the
-    share STRAY, anywhere.
+    Each plant adds its likelihood ratio, by its weight: normally distributed about the nearest row, or, with
+    the share STRAY, anywhere.
     """
     spread_m = SPREAD * scatter_m(crop)
     view_m = plane.width_px / float(plane.pixels_per_metre(plane.centre_y_px))

@@ -14,7 +14,7 @@ Mask = NDArray[np.uint8]
 
 FULL_SCALE = 255  # grey level that stands for an index of 1
 COLOURS = 3
-DARK_LEVEL = 20.0  # grey levels added to the brightness, so that sensor noise in the dark is not called green
+DARK_LEVEL = 26.0  # grey levels added to the brightness, so that sensor noise in the dark is not called green
 WORKING_WIDTH_PX = (
     640  # regions are found at this width or just above: centres of mass lose no accuracy there
 )

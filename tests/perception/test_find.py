@@ -29,7 +29,7 @@ def assert_shows(view: View, truth: list[RowLine], width_px: int, height_px: int
         assert abs(angle_deg(row, height_px) - angle_deg(true, height_px)) < 1
 
 
-@settings(deadline=None, max_examples=25)
+@settings(deadline=None, max_examples=15)
 @given(st.floats(-0.08, 0.08), st.floats(-0.08, 0.08), st.sampled_from([(3, 0.35), (2, 0.55), (1, 0.75)]))
 def test_rows_are_found_where_they_were_drawn(
     drawn: SimpleNamespace, at_near_m: float, slope: float, pattern: tuple[int, float]
@@ -56,7 +56,7 @@ def test_parameters_scale_with_the_picture(drawn: SimpleNamespace, width_px: int
     assert_shows(view, drawn.rows(crop, camera, 0.03, 0.05), camera.width_px, camera.height_px)
 
 
-@settings(deadline=None, max_examples=10)
+@settings(deadline=None, max_examples=5)
 @given(st.integers(0, 10_000))
 def test_a_mirrored_picture_has_the_mirrored_rows(drawn: SimpleNamespace, seed: int) -> None:
     crop, camera = drawn.beet, drawn.camera
