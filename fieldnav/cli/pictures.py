@@ -1,0 +1,100 @@
+"""Pictures given on the command line: read and checked, their rows found, overlays written."""
+
+import tempfile
+from collections.abc import Sequence
+from dataclasses import dataclass
+from math import atan2, degrees
+from pathlib import Path
+from time import perf_counter
+
+import cv2
+import numpy as np
+
+from fieldnav.errors import OutputError, SettingsError
+from fieldnav.journal.files import write_atomically
+from fieldnav.messages import Image, RowLine
+from fieldnav.perception.perceive import View, find
+from fieldnav.pinhole import Pinhole
+from fieldnav.settings.crop import CropProfile
+from fieldnav.settings.loading import revised
+from fieldnav.settings.robot import CameraSettings
+
+MILLISECONDS = 1000.0
+OVERLAY_SUFFIX = "-rows.jpg"
+OVERLAY_QUALITY = 92
+"""Of the JPEG, per cent."""
+
+
+@dataclass(frozen=True, slots=True)
+class Detection:
+    """A picture and what was found in it; `camera` is the robot's, at the picture's size."""
+
+    path: Path
+    image: Image
+    camera: Pinhole
+    view: View
+    milliseconds: float
+
+    def angle_deg(self, row: RowLine) -> float:
+        """A row's angle from the image's vertical, positive clockwise."""
+        return degrees(atan2(row.x_top_px - row.x_bottom_px, self.camera.height_px - 1))
+
+
+def check(path: Path, settings: CameraSettings) -> None:
+    """Raise SettingsError when the file is no picture that rows can be looked for in."""
+    camera_of(read_picture(path), path, settings)
+
+
+def read_picture(path: Path) -> Image:
+    """The picture in a file, shape (height, width, 3), blue green red. Raises SettingsError."""
+    try:
+        content = path.read_bytes()
+    except FileNotFoundError as error:
+        raise SettingsError(f"{path}: there is no such file; allowed is a picture") from error
+    except OSError as error:
+        raise SettingsError(f"{path}: cannot be read: {error.strerror}; allowed is a picture") from error
+    image = cv2.imdecode(np.frombuffer(content, np.uint8), cv2.IMREAD_COLOR) if content else None
+    if image is None:
+        raise SettingsError(f"{path}: is no picture; allowed is JPEG, PNG, TIFF, BMP or WebP")
+    return np.asarray(image, dtype=np.uint8)
+
+
+def camera_of(image: Image, path: Path, settings: CameraSettings) -> Pinhole:
+    """The camera with its field of view kept and the picture's size. Raises SettingsError for a tiny picture."""
+    size = {"width_px": image.shape[1], "height_px": image.shape[0]}
+    return revised(settings, size, str(path)).pinhole()
+
+
+def detect_rows(path: Path, crop: CropProfile, settings: CameraSettings) -> Detection:
+    """Find every row of a picture; the time is that of the finding alone. Raises SettingsError."""
+    image = read_picture(path)
+    camera = camera_of(image, path, settings)
+    started = perf_counter()
+    view = find(image, crop, camera)
+    return Detection(path, image, camera, view, (perf_counter() - started) * MILLISECONDS)
+
+
+def overlay_paths(images: Sequence[Path], folder: Path) -> dict[Path, Path]:
+    """Where each picture's overlay goes; the folder is made if it lacks. Raises OutputError."""
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+        with tempfile.TemporaryFile(dir=folder):
+            pass
+    except OSError as error:
+        raise OutputError(
+            f"{folder}: overlays cannot be written here: {error.strerror}; allowed is a folder you can write"
+        ) from error
+    paths: dict[Path, Path] = {}
+    for image in dict.fromkeys(images):
+        path, number = folder / f"{image.stem}{OVERLAY_SUFFIX}", 1
+        while path in paths.values():
+            number += 1
+            path = folder / f"{image.stem}-{number}{OVERLAY_SUFFIX}"
+        paths[image] = path
+    return paths
+
+
+def write_picture(path: Path, image: Image) -> None:
+    """Write a JPEG whole or not at all. Raises OutputError."""
+    _, content = cv2.imencode(path.suffix, image, [cv2.IMWRITE_JPEG_QUALITY, OVERLAY_QUALITY])
+    write_atomically(path, content.tobytes())
