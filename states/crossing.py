@@ -1,7 +1,16 @@
 """Sidestep.Crossing: move sideways and count the new rows (paper III-C)."""
 
+from math import nan
+
 from fieldnav.messages import CameraName, Direction, Evidence, Frame, Motion
-from fieldnav.perception.crossing import Crossing, accept, candidate_row, follow, rows_in_image
+from fieldnav.perception.crossing import (
+    Crossing,
+    accept,
+    candidate_row,
+    follow,
+    outermost_row,
+    rows_in_image,
+)
 from fieldnav.perception.recognition import describe, distance
 from fieldnav.perception.vegetation import find_plants
 from states.behaviour import Observation, Sight, Step, Task
@@ -11,6 +20,9 @@ from states.orienting import sideways
 
 HEADING_GAIN_PER_S = 0.5
 MOST_TURN_RPS = 0.05
+REFRESH_FRAMES = 3
+OVERRULING_FRAMES = 15
+"""A row that has stood beside the known ones for so long, 15 cm of the way, is a new one whatever it looks like."""
 
 
 class CrossingRows:
@@ -19,6 +31,7 @@ class CrossingRows:
     def __init__(self, task: Task, direction: Direction, lane: LaneMemory) -> None:
         self.cameras: tuple[CameraName, ...] = (direction.trailing,)
         self._task, self._direction, self._lane = task, direction, lane
+        self._frames = 0
         self._step = Step(sideways(task, task.crop.speeds.sidestep_mps))
 
     def step(self, seen: Observation) -> Step:
@@ -58,9 +71,13 @@ class CrossingRows:
     def _recognise(
         self, frame: Frame, rows: Crossing, switch: SwitchMemory
     ) -> tuple[Crossing, tuple[Evidence, ...]]:
-        """Compare the outermost candidate with the stored row; a new row becomes the stored one."""
+        """Compare the outermost row in view with the stored one: the same row refreshes it, a new one replaces it."""
         crop, camera = self._task.crop, self._task.cameras[frame.camera]
-        line = candidate_row(rows, crop, camera)
+        candidate = candidate_row(rows, crop, camera)
+        self._frames += 1
+        if candidate is None and self._frames % REFRESH_FRAMES:
+            return rows, ()
+        line = candidate or outermost_row(rows, crop, camera)
         if line is None:
             return rows, ()
         features = describe(frame.image, line, crop, camera, 0.0, camera.centre_y_px)
@@ -68,9 +85,20 @@ class CrossingRows:
             distance(switch.reference, features, crop.recognition.match_ratio) if switch.reference else None
         )
         threshold = crop.recognition.new_row_distance
-        evidence = (Evidence("distance of the outermost row's features", unlike or 0.0, threshold, ""),)
-        # Too few features to compare leaves the word to the row's place alone.
-        if unlike is not None and unlike <= threshold:
+        evidence = (
+            Evidence(
+                "distance of the outermost row's features", unlike if unlike is not None else nan, threshold
+            ),
+            Evidence("frames beside the known rows", rows.candidate_frames, OVERRULING_FRAMES, "frames"),
+        )
+        if candidate is None:
+            # Seen 3 cm further on a row is still like itself, 12 cm on no longer surely.
+            if unlike is not None and unlike <= threshold:
+                switch.reference = features
+            return rows, evidence
+        # Too few features to compare leaves the word to the row's place, and so does a place held for long.
+        is_new = unlike is None or unlike > threshold or rows.candidate_frames >= OVERRULING_FRAMES
+        if not is_new:
             return rows, evidence
         switch.reference = features
         return accept(rows, crop), evidence

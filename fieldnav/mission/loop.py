@@ -23,6 +23,7 @@ TICK_S = 0.02
 """50 Hz, the rate of the wheel commands."""
 REFUSED_LIMIT_S = 2.0
 """The gate may refuse to move for so long before it counts as a fault."""
+STANDING = Passed(Motion(), {})
 STANDING_MPS = 0.01
 STANDING_RPS = 0.01
 
@@ -89,7 +90,9 @@ class Mission:
             frames = self._look(now_s)
         except DriverError as error:
             change = self._fail(now_s, Event.LATCH, str(error))
-            self._tell(now_s, change, Step(), self._stand(now_s))
+            self._wheels.stop(now_s)
+            self._report, self._twist = WheelReport(), Twist()  # what the wheels do is no longer known
+            self._tell(now_s, change, Step(reason=str(error)), STANDING)
             return
         self._measure(now_s)
         guides = self.behaviours.current.cameras
@@ -173,11 +176,6 @@ class Mission:
         self._journal.record(entry)
         self.behaviours.enter(change)
         return change
-
-    def _stand(self, now_s: float) -> Passed:
-        self._wheels.stop(now_s)
-        self._measure(now_s)
-        return self._gate.pass_on(now_s, Motion(), False, None, WheelReport())
 
     def _tell(self, now_s: float, change: Change | None, step: Step, passed: Passed) -> None:
         lane = self.behaviours.lane

@@ -90,7 +90,9 @@ def follow(crossing: Crossing, centres: Centres, crop: CropProfile, camera: Pinh
         row = _members(across, places, crop)
         places = _moved(places, across, weight, row)
     slope = crossing.slope + SLOPE_BLEND * crossing.outward * _lean(ahead, across, weight, row, len(places))
-    rows = tuple(replace(old, across_m=float(place)) for old, place in zip(crossing.rows, places, strict=True))
+    rows = tuple(
+        replace(old, across_m=float(place)) for old, place in zip(crossing.rows, places, strict=True)
+    )
     moved = replace(crossing, rows=rows, slope=slope)
     least = moved.outermost.across_m + NEW_ROW * crop.rows.spacing_m
     candidate = _beyond(across, weight, least, crop)
@@ -98,14 +100,24 @@ def follow(crossing: Crossing, centres: Centres, crop: CropProfile, camera: Pinh
         return replace(moved, candidate_m=None, candidate_frames=0)
     last = crossing.candidate_m
     again = last is not None and abs(candidate - last) < SAME_ROW * crop.rows.spacing_m
-    return replace(moved, candidate_m=candidate, candidate_frames=crossing.candidate_frames + 1 if again else 1)
+    return replace(
+        moved, candidate_m=candidate, candidate_frames=crossing.candidate_frames + 1 if again else 1
+    )
 
 
 def candidate_row(crossing: Crossing, crop: CropProfile, camera: Pinhole) -> RowLine | None:
     """The candidate's line, once enough frames have shown it and it stands wholly in the view."""
     if crossing.candidate_m is None or crossing.candidate_frames < crop.recognition.confirm_frames:
         return None
-    line = _line(crossing, crossing.candidate_m, canopy_plane(camera, crop))
+    return _in_view(_line(crossing, crossing.candidate_m, canopy_plane(camera, crop)), crop, camera)
+
+
+def outermost_row(crossing: Crossing, crop: CropProfile, camera: Pinhole) -> RowLine | None:
+    """The outermost known row's line, if it stands wholly in the view."""
+    return _in_view(_line(crossing, crossing.outermost.across_m, canopy_plane(camera, crop)), crop, camera)
+
+
+def _in_view(line: RowLine, crop: CropProfile, camera: Pinhole) -> RowLine | None:
     at = np.array([0.0, camera.centre_y_px])
     room = line_px(line, at, camera), half_width_px(at, crop, camera)
     inside = (room[0] - room[1] >= 0) & (room[0] + room[1] <= camera.width_px - 1)
@@ -170,9 +182,7 @@ def _moved(places: Floats, across: Floats, weight: Floats, row: NDArray[np.int64
     return places + np.where(seen, shift, common)
 
 
-def _lean(
-    ahead: Floats, across: Floats, weight: Floats, row: NDArray[np.int64], count: int
-) -> float:
+def _lean(ahead: Floats, across: Floats, weight: Floats, row: NDArray[np.int64], count: int) -> float:
     """Slope that the plants' places still have along their rows: the pooled weighted regression; 0 without any."""
     inside = row >= 0
     row, weight = row[inside], weight[inside]

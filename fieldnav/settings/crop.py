@@ -98,7 +98,7 @@ class Recognition(Settings):
         default=0.0, ge=0, le=2000, description="lambda: matches at or below are left out"
     )
     new_row_distance: float = Field(
-        default=230.0, gt=0, le=2000, description="tau: mean distance of a new row's matches"
+        default=295.0, gt=0, le=2000, description="tau: mean distance of a new row's matches"
     )
     confirm_frames: int = Field(default=3, ge=1, le=100)
 
