@@ -1,7 +1,7 @@
 """The pinhole camera over flat ground: pixels to metres and back.
 
 Ground coordinates of a camera: origin at the robot's centre of rotation on the ground, x in the direction the
-camera looks (the robot's forward for the front camera, backward for the rear one), y to the left of that direction.
+camera looks (the robot's forward for the front camera, backward for the rear one), y to the left of that.
 """
 
 from dataclasses import dataclass

@@ -16,8 +16,8 @@ class Observation:
     """What is known at one tick.
 
     frames: those that are new since the last tick, of the cameras the behaviour asked for.
-    forward_m, sideways_m: what the wheels have travelled since the run began, signed in the robot's axes; used to
-    bound a manoeuvre and to judge over distance, never to navigate.
+    forward_m, sideways_m: what the wheels have travelled since the run began, signed in the robot's axes;
+    used to bound a manoeuvre and to judge over distance, never to navigate.
     """
 
     now_s: float

@@ -1,5 +1,7 @@
 """Which behaviour belongs to which leaf, and the memories they share."""
 
+from collections.abc import Callable
+
 from fieldnav.messages import Direction
 from states.acquiring import Acquiring
 from states.behaviour import Behaviour, Task
@@ -16,7 +18,7 @@ from states.standing import Checking, Standing
 from states.table import CHECKING
 from states.tracking import Tracking
 
-_IN_LANE = {
+_IN_LANE: dict[Path, Callable[[Task, Direction, LaneMemory], Behaviour]] = {
     (Phase.FOLLOW, Follow.ACQUIRING): Acquiring,
     (Phase.FOLLOW, Follow.TRACKING): Tracking,
     (Phase.FOLLOW, Follow.COASTING): Coasting,
@@ -29,7 +31,7 @@ _IN_LANE = {
 
 
 class Behaviours:
-    """Makes the behaviour of each leaf as it is entered; every lane and every switch begins with a fresh memory."""
+    """Makes the behaviour of each leaf as it is entered; every lane and switch begins with a fresh memory."""
 
     def __init__(self, task: Task) -> None:
         self._task = task

@@ -1,8 +1,8 @@
 """Follow.Coasting: rows lost for a moment; straight on, slowly and boundedly, until they are found again."""
 
 from fieldnav.messages import CameraName, Direction, Evidence, Motion, Twist
-from fieldnav.perception.perceive import find
 from fieldnav.perception.parts import in_part
+from fieldnav.perception.perceive import find
 from fieldnav.perception.row_end import ImagePart
 from fieldnav.perception.tracking import start
 from states.agreement import Agreement

@@ -22,11 +22,11 @@ HEADING_GAIN_PER_S = 0.5
 MOST_TURN_RPS = 0.05
 REFRESH_FRAMES = 3
 OVERRULING_FRAMES = 15
-"""A row that has stood beside the known ones for so long, 15 cm of the way, is a new one whatever it looks like."""
+"""A row that stood beside the known ones for so long, 15 cm of the way, is new whatever it looks like."""
 
 
 class CrossingRows:
-    """Counts rows whose features differ from the outermost one's, until as many have passed as the lane has."""
+    """Counts rows whose features differ from the outermost one's, until a lane's worth has passed."""
 
     def __init__(self, task: Task, direction: Direction, lane: LaneMemory) -> None:
         self.cameras: tuple[CameraName, ...] = (direction.trailing,)
@@ -71,7 +71,7 @@ class CrossingRows:
     def _recognise(
         self, frame: Frame, rows: Crossing, switch: SwitchMemory
     ) -> tuple[Crossing, tuple[Evidence, ...]]:
-        """Compare the outermost row in view with the stored one: the same row refreshes it, a new one replaces it."""
+        """Compare the outermost row in view with the stored one, which it refreshes or, being new, replaces."""
         crop, camera = self._task.crop, self._task.cameras[frame.camera]
         candidate = candidate_row(rows, crop, camera)
         self._frames += 1

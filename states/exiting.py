@@ -10,7 +10,7 @@ from fieldnav.perception.canopy import canopy_plane
 from fieldnav.perception.parts import in_part
 from fieldnav.perception.perceive import lane_of
 from fieldnav.perception.row_end import ImagePart, centres_in_rows, nearest_crop_m
-from fieldnav.perception.tracking import feature, start, track
+from fieldnav.perception.tracking import TrackedRows, feature, start, track
 from fieldnav.perception.vegetation import find_plants
 from fieldnav.pinhole import Pinhole
 from states.agreement import Agreement
@@ -29,7 +29,7 @@ APPROACH_PER_S = 1.0
 
 
 class Exiting:
-    """Steers by the trailing camera until its lower half is empty; goes back to following if rows come again."""
+    """Steers by the trailing camera until its lower half is empty; follows again if rows come again."""
 
     def __init__(self, task: Task, direction: Direction, lane: LaneMemory) -> None:
         self.cameras: tuple[CameraName, ...] = (direction.leading, direction.trailing)
@@ -66,20 +66,14 @@ class Exiting:
     def _guided(self, frame: Frame, seen: Observation, driven_m: float) -> Step:
         crop, camera = self._task.crop, self._task.cameras[frame.camera]
         centres, _ = find_plants(frame.image, crop.vegetation, camera)
-        self._follow(centres, frame.stamp_s, camera)
-        rows = self._lane.trailing
-        nearest_m, farthest_m = camera.view_m
-        # From the leading view's middle being empty to the trailing view's middle being so.
-        whole_m = nearest_m + farthest_m
+        rows = self._follow(centres, frame.stamp_s, camera)
+        # From where the leading view's middle meets the last plants to where the trailing view's does.
+        whole_m = sum(camera.view_m)
         if rows is None:
-            evidence = (Evidence("driven out unguided", driven_m, whole_m, "m"),)
-            if driven_m > whole_m:
-                return Step(
-                    Motion(), Event.FAIL, evidence, Sight(frame, (), centres), "no rows behind to leave by"
-                )
-            return Step(self._ahead(0.0, crop.speeds.exit_mps), None, evidence, Sight(frame, (), centres))
+            return self._unguided(frame, centres, driven_m, whole_m)
+        speed_mps = self._speed_mps(rows, centres, camera)
         line = feature(rows.rows, camera)
-        turn_rps = yaw_rate(line, camera, -crop.speeds.exit_mps, crop.servoing)
+        turn_rps = yaw_rate(line, camera, -speed_mps, crop.servoing)
         behind = int(centres_in_rows(centres, rows.rows, crop, camera, ImagePart.BOTTOM).sum())
         ended = self._end.add(behind, frame.stamp_s, seen.forward_m)
         evidence = (
@@ -92,25 +86,32 @@ class Exiting:
         if driven_m > 2 * whole_m:
             return Step(Motion(), Event.FAIL, evidence, sight, "crop behind does not end")
         if not (ended and driven_m > whole_m / 2):
-            speed_mps = self._speed_mps(centres, camera)
             return Step(self._ahead(turn_rps, speed_mps), None, evidence, sight)
         last = self._lane.number >= self._task.lanes
         return Step(Motion(), Event.LAST_LANE_LEFT if last else Event.LANE_LEFT, evidence, sight)
 
-    def _follow(self, centres: Centres, stamp_s: float, camera: Pinhole) -> None:
+    def _unguided(self, frame: Frame, centres: Centres, driven_m: float, whole_m: float) -> Step:
+        """Straight on until the trailing camera has found the rows, but no further than the exit is long."""
+        evidence = (Evidence("driven out unguided", driven_m, whole_m, "m"),)
+        sight = Sight(frame, (), centres)
+        if driven_m > whole_m:
+            return Step(Motion(), Event.FAIL, evidence, sight, "no rows behind to leave by")
+        return Step(self._ahead(0.0, self._task.crop.speeds.exit_mps), None, evidence, sight)
+
+    def _follow(self, centres: Centres, stamp_s: float, camera: Pinhole) -> TrackedRows | None:
         crop = self._task.crop
         if self._lane.trailing is not None:
             self._lane.trailing = track(self._lane.trailing, centres, stamp_s, crop, camera)
-            return
-        fit = lane_of(centres, crop, camera)
-        if self._found.add(fit) and fit:
-            self._lane.trailing = start(fit, stamp_s)
+            return self._lane.trailing
+        lane = lane_of(centres, crop, camera)
+        if self._found.add(lane) and lane:
+            self._lane.trailing = start(lane, stamp_s)
+        return self._lane.trailing
 
-    def _speed_mps(self, centres: Centres, camera: Pinhole) -> float:
-        """Slower as the last plants near the middle of the view: every centimetre past it is less of them to see."""
-        assert self._lane.trailing, "the rows behind are tracked"
+    def _speed_mps(self, rows: TrackedRows, centres: Centres, camera: Pinhole) -> float:
+        """Slower as the last plants near the view's middle: every centimetre past it is less of them to see."""
         crop = self._task.crop
-        nearest_m = nearest_crop_m(centres, self._lane.trailing.rows, crop, camera)
+        nearest_m = nearest_crop_m(centres, rows.rows, crop, camera)
         middle = np.array([camera.centre_x_px, camera.centre_y_px])
         middle_m = float(canopy_plane(camera, crop).to_ground(middle)[0])
         left_m = max(0.0, middle_m - nearest_m) if nearest_m is not None else 0.0

@@ -1,4 +1,4 @@
-"""What the behaviours of one lane and of one switch hand to each other. Made anew for every lane and switch."""
+"""What the behaviours of one lane and of one switch hand to each other; made anew for each."""
 
 from collections import Counter
 from dataclasses import dataclass, field
@@ -30,5 +30,5 @@ class LaneMemory:
 
     @property
     def rows(self) -> int:
-        """C, the number of rows under the robot: the most frequent count of this lane; 0 before any was seen."""
+        """C, the number of rows under the robot: this lane's most frequent count; 0 before any was seen."""
         return self.counts.most_common(1)[0][0] if self.counts else 0

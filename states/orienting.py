@@ -5,6 +5,7 @@ from states.behaviour import Observation, Step, Task
 from states.memory import LaneMemory, SwitchMemory
 from states.names import Event
 
+SETTLED_TICKS = 2
 LONGEST_S = 15.0
 """Stopping and a quarter turn of the slowest wheel take a few seconds."""
 
@@ -36,7 +37,7 @@ class Orienting:
         self._turning_ticks += 1
         motion = sideways(self._task, self._task.crop.speeds.sidestep_mps, hold=True)
         # The word on alignment belongs to the motion commanded before, so the first tick says nothing.
-        if seen.wheels_aligned and self._turning_ticks > 2:
+        if seen.wheels_aligned and self._turning_ticks > SETTLED_TICKS:
             self._lane.switch = SwitchMemory(started_m=seen.sideways_m)
             return Step(motion, Event.WHEELS_TURNED, evidence)
         return Step(motion, None, evidence)

@@ -15,7 +15,7 @@ FINISHED: Path = (Top.FINISHED,)
 
 @dataclass(frozen=True, slots=True)
 class Transition:
-    """On `event` in `source` or any of its children go to `target`; no target: where the mission was interrupted."""
+    """On `event` in `source` or its children go to `target`; None: to where the mission was interrupted."""
 
     source: Path
     event: Event

@@ -16,7 +16,7 @@ PIXEL_DIGITS, ANGLE_DIGITS, SCORE_DIGITS, MILLISECOND_DIGITS = 1, 2, 3, 1
 
 
 def detect(
-    images: Annotated[list[Path], typer.Argument(help="Pictures, colour, of any size.", metavar="IMAGE...")],
+    images: Annotated[list[Path], typer.Argument(help="Pictures, colour, of any size.", metavar="IMAGE")],
     crop: Annotated[str, typer.Option(help="Crop profile; name or path.")] = "sugar-beet",
     robot: Annotated[str, typer.Option(help="Robot whose front camera took them; name or path.")] = "bonnbot",
     overlay: Annotated[
@@ -28,8 +28,8 @@ def detect(
 ) -> None:
     """Find the crop rows in pictures, and say where they run.
 
-    A row is the line x = x_top + (x_bottom - x_top) * y / (height - 1), in pixels; its angle is from the image's
-    vertical, positive clockwise.
+    A row is the line x = x_top + (x_bottom - x_top) * y / (height - 1), in pixels.
+    Its angle is from the image's vertical, positive clockwise.
     """
     # Here, because other commands need not wait for OpenCV.
     from fieldnav.cli import pictures  # noqa: PLC0415
@@ -86,8 +86,7 @@ def _print_table(found: "Detection") -> None:
         )
         for number, row in enumerate(lines, start=1)
     ]
+    print(title)
     if rows:
-        out().print(table(title, columns, rows, right=columns))
-        print()
-    else:
-        print(f"{title}\n")
+        out().print(table("", columns, rows, right=columns))
+    print()

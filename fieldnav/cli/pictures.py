@@ -27,12 +27,16 @@ OVERLAY_QUALITY = 92
 
 @dataclass(frozen=True, slots=True)
 class Detection:
-    """A picture and what was found in it; `camera` is the robot's, at the picture's size."""
+    """A picture and what was found in it.
+
+    camera: the robot's, at the picture's size; stride_px: from one position of the sliding window to the next.
+    """
 
     path: Path
     image: Image
     camera: Pinhole
     view: View
+    stride_px: float
     milliseconds: float
 
     def angle_deg(self, row: RowLine) -> float:
@@ -60,7 +64,10 @@ def read_picture(path: Path) -> Image:
 
 
 def camera_of(image: Image, path: Path, settings: CameraSettings) -> Pinhole:
-    """The camera with its field of view kept and the picture's size. Raises SettingsError for a tiny picture."""
+    """The robot's camera as if its pictures had this size: the field of view stays.
+
+    Raises SettingsError for a size that no camera has.
+    """
     size = {"width_px": image.shape[1], "height_px": image.shape[0]}
     return revised(settings, size, str(path)).pinhole()
 
@@ -71,7 +78,8 @@ def detect_rows(path: Path, crop: CropProfile, settings: CameraSettings) -> Dete
     camera = camera_of(image, path, settings)
     started = perf_counter()
     view = find(image, crop, camera)
-    return Detection(path, image, camera, view, (perf_counter() - started) * MILLISECONDS)
+    milliseconds = (perf_counter() - started) * MILLISECONDS
+    return Detection(path, image, camera, view, crop.finding.stride * camera.width_px, milliseconds)
 
 
 def overlay_paths(images: Sequence[Path], folder: Path) -> dict[Path, Path]:

@@ -1,25 +1,26 @@
-"""The field-structure signal as a graph whose x axis is the picture's bottom edge (paper III-A.2)."""
+"""The field-structure signal as a graph that goes with the picture above it (paper III-A.2)."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
 
+import cv2
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
+from matplotlib.ticker import MaxNLocator
 
-from fieldnav.messages import Image, RowLine
+from fieldnav.messages import Floats, Image, RowLine
 from fieldnav.perception.moving_variance import FieldStructure
 from fieldnav.pinhole import Pinhole
 
-HEIGHT = 0.34
-"""Of the graph, over the picture's height."""
-DOTS_PER_INCH = 100
+HEIGHT = 0.19
+"""Of the graph, over the picture's width."""
 WIDTH_INCH = 12.8
 """The graph is laid out at this width, whatever the picture's size, so that it always looks the same."""
-HEADROOM, FLOOR = 1.18, -0.12
+HEADROOM, FLOOR = 1.3, -0.12
 """The axis reaches so many times above the signal, and so far below zero to hold the rows' marks."""
-LEGEND_COLUMNS = 4
+LEGEND_COLUMNS, MOST_TICKS = 4, 4
 
 
 @dataclass(frozen=True, slots=True)
@@ -43,28 +44,31 @@ ROW_COLOUR = Colour(255, 196, 0)
 SIGNAL, PEAK, TROUGH, INK, PAPER, GRID = "#2f6db3", "#c8352b", "#2d8a3e", "#333333", "#fbfaf7", "#dddad2"
 
 
-def draw_structure(structure: FieldStructure, rows: Sequence[RowLine], camera: Pinhole) -> Image:
-    """The signal over the place where each window's line meets the bottom edge, its peaks, its troughs, the rows.
+def draw_structure(
+    structure: FieldStructure, rows: Sequence[RowLine], camera: Pinhole, stride_px: float
+) -> Image:
+    """The signal over the windows' middles, its peaks and troughs, and where the rows pass the picture's middle.
 
-    Returns a picture as wide as the camera's, shape (height * HEIGHT, width, 3), blue green red.
+    The windows lie `stride_px` apart. Returns shape (width * HEIGHT, width, 3), blue green red, as wide as the
+    camera's picture.
     """
-    width_px, height_px = camera.width_px, max(1, round(camera.height_px * HEIGHT))
-    dots = DOTS_PER_INCH * width_px / (WIDTH_INCH * DOTS_PER_INCH)
+    width_px, height_px = camera.width_px, max(1, round(camera.width_px * HEIGHT))
+    dots = width_px / WIDTH_INCH
     figure = Figure(figsize=(WIDTH_INCH, height_px / dots), dpi=dots, facecolor=PAPER)
     canvas = FigureCanvasAgg(figure)
     axes = figure.add_axes((0, 0, 1, 1), facecolor=PAPER)
-    _draw_signal(axes, structure)
-    _draw_rows(axes, rows)
+    count = len(structure.variance)
+    middles_px = camera.centre_x_px + stride_px * (np.arange(count) - (count - 1) / 2)
+    _draw_signal(axes, middles_px, structure)
+    _draw_rows(axes, [(row.x_top_px + row.x_bottom_px) / 2 for row in rows])
     _dress(axes, structure, camera)
     canvas.draw()
-    drawn = np.asarray(canvas.buffer_rgba())[:height_px, :width_px, 2::-1]
-    framed = np.full((height_px, width_px, 3), 255, np.uint8)
-    framed[: drawn.shape[0], : drawn.shape[1]] = drawn
-    return framed
+    return cv2.resize(np.asarray(canvas.buffer_rgba())[:, :, 2::-1], (width_px, height_px)).astype(np.uint8)
 
 
-def _draw_signal(axes: Axes, structure: FieldStructure) -> None:
-    x, y = structure.intersection_px, structure.variance
+def _draw_signal(axes: Axes, x: Floats, structure: FieldStructure) -> None:
+    y = structure.variance
+    axes.fill_between(x, 0, y, color=SIGNAL, alpha=0.12, linewidth=0)
     axes.plot(x, y, color=SIGNAL, linewidth=1.6, marker=".", markersize=4, label="moving variance")
     marks = ((structure.peaks, "^", PEAK, "peaks"), (structure.troughs, "v", TROUGH, "troughs"))
     for indices, marker, colour, label in marks:
@@ -73,39 +77,30 @@ def _draw_signal(axes: Axes, structure: FieldStructure) -> None:
         axes.plot(x[at], y[at], linestyle="none", marker=marker, label=label, zorder=3, **style)
 
 
-def _draw_rows(axes: Axes, rows: Sequence[RowLine]) -> None:
-    bottom = [row.x_bottom_px for row in rows]
+def _draw_rows(axes: Axes, x: Sequence[float]) -> None:
+    style = {"markersize": 9, "markerfacecolor": ROW_COLOUR.hex, "markeredgecolor": INK}
     axes.plot(
-        bottom,
-        np.zeros(len(bottom)),
-        linestyle="none",
-        marker="s",
-        markersize=9,
-        color=ROW_COLOUR.hex,
-        markeredgecolor=INK,
-        label="rows",
-        zorder=4,
+        x, np.zeros(len(x)), linestyle="none", marker="s", label="rows at mid-height", zorder=4, **style
     )
-    for x in bottom:
-        axes.axvline(x, color=ROW_COLOUR.hex, linewidth=1.5, zorder=1)
+    for each in x:
+        axes.axvline(each, color=ROW_COLOUR.hex, linewidth=1.5, zorder=1)
 
 
 def _dress(axes: Axes, structure: FieldStructure, camera: Pinhole) -> None:
     known = structure.variance[np.isfinite(structure.variance)]
-    highest = float(known.max()) if len(known) else 1.0
+    highest = float(known.max(initial=0)) or 1.0
     axes.set_xlim(-0.5, camera.width_px - 0.5)
     axes.set_ylim(FLOOR * highest, HEADROOM * highest)
+    ticks = [tick for tick in MaxNLocator(MOST_TICKS).tick_values(0, highest) if 0 < tick <= highest]
+    axes.set_yticks(ticks)
     axes.grid(axis="y", color=GRID, linewidth=0.8)
     axes.set_axisbelow(True)
     axes.axhline(0, color=INK, linewidth=0.8)
-    axes.tick_params(axis="y", direction="in", pad=-28, labelsize=9, labelcolor=INK, length=0)
-    for tick in axes.get_yticklabels():
-        tick.set_horizontalalignment("left")
-    axes.tick_params(axis="x", length=0, labelbottom=False)
+    axes.tick_params(length=0, labelbottom=False, labelleft=False)
+    for tick in ticks:
+        axes.annotate(f"{tick:g}", (0.006, tick), xycoords=axes.get_yaxis_transform(), color=INK, fontsize=9)
     for spine in axes.spines.values():
         spine.set_visible(False)
-    title = "variance of the window lines' angles, deg2, where they meet the bottom edge"
-    axes.text(0.006, 0.95, title, transform=axes.transAxes, fontsize=10, color=INK, va="top")
-    axes.legend(
-        loc="upper right", ncols=LEGEND_COLUMNS, fontsize=9, frameon=True, facecolor=PAPER, edgecolor=GRID
-    )
+    title = "moving variance of the window lines' angles, deg2"
+    axes.text(0.006, 0.95, title, transform=axes.transAxes, fontsize=11, color=INK, va="top")
+    axes.legend(loc="upper right", ncols=LEGEND_COLUMNS, fontsize=10, facecolor=PAPER, edgecolor=GRID)

@@ -1,10 +1,10 @@
 """Image-based visual servoing along the crop rows (paper III-B).
 
-The feature is the lane's average line, [a, H/2, theta]; the law drives it to [0, H/2, 0] by the yaw rate alone while
-the robot travels at a given speed. The interaction matrix is that of Cherubini, Chaumette and Oriolo, "Visual servoing
-for path reaching with nonholonomic robots" (Robotica 29, 2011), in its row form: the line is observed where it
-crosses a fixed image row. X and Y are pixels from the image's centre over the focal length, theta is the line's
-angle from the image's vertical, positive clockwise.
+The feature is the lane's average line, [a, H/2, theta]; the law drives it to [0, H/2, 0] by the yaw rate
+alone while the robot travels at a given speed. The interaction matrix is that of Cherubini, Chaumette and Oriolo,
+"Visual servoing for path reaching with nonholonomic robots" (Robotica 29, 2011), in its row form: the line is
+observed where it crosses a fixed image row. X and Y are pixels from the image's centre over the focal length,
+theta is the line's angle from the image's vertical, positive clockwise.
 """
 
 from math import cos, sin, tan
@@ -18,12 +18,12 @@ from fieldnav.settings.crop import Servoing
 
 
 def interaction_matrix(x: float, y: float, theta_rad: float, camera: Pinhole) -> Floats:
-    """Derivatives of [x, theta] by the camera's velocity [vx vy vz wx wy wz] in its own axes; shape (2, 6)."""
+    """Derivatives of [x, theta] by the camera's own velocity [vx vy vz wx wy wz]; shape (2, 6)."""
     rho, height_m = camera.tilt_rad, camera.height_m
     slope = -tan(theta_rad)  # of the line x = axis + slope * y
     axis = x - slope * y
-    # Every point of the line obeys the interaction matrix of a point on the ground plane; what remains after the
-    # points' sliding along the line is the movement of its axis and of its slope.
+    # Every point of the line obeys the interaction matrix of a point on the ground plane; what remains after
+    # the points' sliding along the line is the movement of its axis and of its slope.
     translation = np.array([-1.0, slope, axis]) / height_m
     axis_rate = np.array([*(sin(rho) * translation), -slope, -1 - axis**2, axis * slope])
     slope_rate = np.array([*(cos(rho) * translation), axis, -axis * slope, 1 + slope**2])
@@ -41,9 +41,9 @@ def robot_to_camera(camera: Pinhole) -> Floats:
 def gains(camera: Pinhole, speed_mps: float, servoing: Servoing) -> Floats:
     """The law's two gains [lambda_x, lambda_theta] in 1/s, placed for the wanted convergence; shape (2,).
 
-    Near the goal the robot's distance e to the left of the lane and its heading d obey e' = v d and d' = w, and the
-    feature is x = k e + Jx d, theta = -c e + Jt d with the Jacobian J of the yaw rate. Asking for
-    w = -k_e e - k_d d with poles of natural length `convergence_m` gives two linear equations for the two gains.
+    Near the goal the robot's distance e to the left of the lane and its heading d obey e' = v d and d' = w,
+    and the feature is x = k e + Jx d, theta = -c e + Jt d with the Jacobian J of the yaw rate. Asking for
+    w = -k_e e - k_d d with poles of natural length `convergence_m` gives two linear equations for the gains.
     With the trailing camera the speed is negative and the signs come out as they must.
     """
     y = camera.centre_y_px / camera.focal_px
@@ -51,7 +51,8 @@ def gains(camera: Pinhole, speed_mps: float, servoing: Servoing) -> Floats:
     wanted = np.array([natural_rps**2 / speed_mps, 2 * servoing.damping * natural_rps])
     by_speed, by_yaw = (interaction_matrix(0.0, y, 0.0, camera) @ robot_to_camera(camera)).T
     assert not by_speed.any(), "on the lane, travelling straight moves nothing"
-    along = np.array([sin(camera.tilt_rad) + y * cos(camera.tilt_rad), -cos(camera.tilt_rad)]) / camera.height_m
+    rho = camera.tilt_rad
+    along = np.array([sin(rho) + y * cos(rho), -cos(rho)]) / camera.height_m
     strength = by_yaw @ by_yaw
     feedforward = speed_mps * (by_yaw @ along)
     equations = np.stack([by_yaw * along, by_yaw * by_yaw])
@@ -61,8 +62,8 @@ def gains(camera: Pinhole, speed_mps: float, servoing: Servoing) -> Floats:
 def yaw_rate(feature: Feature, camera: Pinhole, speed_mps: float, servoing: Servoing) -> float:
     """Yaw rate, rad/s, that brings the feature to [0, H/2, 0].
 
-    speed_mps is the robot's speed in the direction this camera looks: positive for the leading camera, negative for
-    the trailing one; at standstill there is nothing to steer and the rate is zero.
+    speed_mps is the robot's speed in the direction this camera looks: positive for the leading camera,
+    negative for the trailing one; at standstill there is nothing to steer and the rate is zero.
     """
     if speed_mps == 0:
         return 0.0

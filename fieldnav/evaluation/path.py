@@ -64,5 +64,5 @@ class PathObserver:
             turn = pose.heading_rad + state.steering_rad
             along = away_x * cos(turn) + away_y * sin(turn)
             across = away_y * cos(turn) - away_x * sin(turn)
-            under = (np.abs(along) <= CONTACT_HALF_M) & (np.abs(across) <= half_width_m) & plants.is_crop[near]
-            self.run_over.update(int(index) for index in near[under])
+            under = (np.abs(along) <= CONTACT_HALF_M) & (np.abs(across) <= half_width_m)
+            self.run_over.update(int(index) for index in near[under & plants.is_crop[near]])

@@ -1,6 +1,7 @@
 """The figures of a simulated run against its ground truth."""
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -21,7 +22,7 @@ PERCENTILE = 95
 
 @dataclass(frozen=True, slots=True)
 class Driven:
-    """The ticks within the rows: which true lane was nearest, where along it, how far and how turned from it."""
+    """The ticks within the rows: the true lane that was nearest, the place along it, the errors."""
 
     lane: NDArray[np.int64]
     believed: NDArray[np.int64]
@@ -71,7 +72,7 @@ def judge(world: World, observer: PathObserver, lanes: int) -> Truth:
 
 
 def headland(world: World, observer: PathObserver) -> Headland:
-    """Empty space used: from the end of a lane's longest row to the trailing camera, while moving sideways."""
+    """Empty space used: from the end of a lane's longest row to the trailing camera at the sidestep."""
     plan, path = world.plan, observer.path
     used = []
     for index, state in enumerate(path.states):
@@ -108,6 +109,6 @@ def _coverage(world: World, run: Driven, lanes: int) -> tuple[int, int]:
     return missed, repeated
 
 
-def _rounded(value: float) -> float | None:
+def _rounded(value: "float | np.floating[Any]") -> float | None:
     """Three decimals are below what any of these figures can bear."""
     return round(float(value), 3) if np.isfinite(value) else None

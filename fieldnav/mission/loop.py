@@ -129,7 +129,13 @@ class Mission:
 
     def _observe(self, now_s: float, frames: Mapping[CameraName, Frame]) -> Observation:
         return Observation(
-            now_s, frames, self._forward_m, self._sideways_m, self._standing, self._gate.aligned, self._wheels.ready
+            now_s=now_s,
+            frames=frames,
+            forward_m=self._forward_m,
+            sideways_m=self._sideways_m,
+            stopped=self._standing,
+            wheels_aligned=self._gate.aligned,
+            wheels_ready=self._wheels.ready,
         )
 
     @property
@@ -158,7 +164,7 @@ class Mission:
         return self._go(now_s, event, Step(event=event, reason=reason))
 
     def _go(self, now_s: float, event: Event, step: Step) -> Change:
-        """Fire, write it down, then take up the new state: the journal is on the disk before the wheels obey."""
+        """Fire, write it down, take up the new state: the journal is on the disk before the wheels obey."""
         change = self.machine.fire(event)
         lane = self.behaviours.lane
         entry = Entry(

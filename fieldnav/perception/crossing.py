@@ -1,8 +1,8 @@
 """Rows passing sideways: which row is which while the robot moves across them (paper III-C).
 
-Rows are held as distances `across_m` from the robot, measured on the ground at one image row in the middle of the
-upper half, where the row ends are still seen; positive towards the side the robot moves to. As the robot moves, all
-of them shrink together; how fast is seen, not taken from the wheels.
+Rows are held as distances `across_m` from the robot, measured on the ground at one image row in the middle of
+the upper half, where the row ends are still seen; positive towards the side the robot moves to. As the robot
+moves, all of them shrink together; how fast is seen, not taken from the wheels.
 """
 
 from dataclasses import dataclass, replace
@@ -28,13 +28,13 @@ MOST_SKIPPED = 2
 SLOPE_BLEND = 0.2
 """Weight of one frame's heading in the running one; single frames err by several degrees."""
 PRIOR_SPREAD_M2 = 0.02
-"""Spread of plants along the rows, in whole plants times square metres, below which they say little of the heading."""
+"""Whole plants times square metres: a spread along the rows below this says little of the heading."""
 MEMBER = 0.6
 """A plant belongs to a row within this share of the canopy's width."""
 WINDOW = 1.0
 """Width of the sliding window over the canopy's width."""
 ROW_MASS = 0.25
-"""Canopy in the window that makes a row, in squares of the canopy's width: half a plant; most weeds have less."""
+"""Canopy in the window that makes a row, in squares of the canopy's width; most weeds have less."""
 SMALLEST_MASS = 1e-6
 ROUNDS = 2
 
@@ -127,8 +127,8 @@ def _in_view(line: RowLine, crop: CropProfile, camera: Pinhole) -> RowLine | Non
 def accept(crossing: Crossing, crop: CropProfile) -> Crossing:
     """The candidate is a new row.
 
-    New rows are a row spacing apart; where one is not, what was taken for a row before was none (weeds between the
-    lanes), and the count begins again with this one.
+    New rows are a row spacing apart; where one is not, what was taken for a row before was none (weeds
+    between the lanes), and the count begins again with this one.
     """
     assert crossing.candidate_m is not None, "there is a candidate to accept"
     outermost, place = crossing.outermost, crossing.candidate_m
@@ -183,7 +183,7 @@ def _moved(places: Floats, across: Floats, weight: Floats, row: NDArray[np.int64
 
 
 def _lean(ahead: Floats, across: Floats, weight: Floats, row: NDArray[np.int64], count: int) -> float:
-    """Slope that the plants' places still have along their rows: the pooled weighted regression; 0 without any."""
+    """Slope that the plants still have along their rows: the pooled weighted regression; 0 without any."""
     inside = row >= 0
     row, weight = row[inside], weight[inside]
     mass = np.maximum(np.bincount(row, weight, count), SMALLEST_MASS)
@@ -194,7 +194,7 @@ def _lean(ahead: Floats, across: Floats, weight: Floats, row: NDArray[np.int64],
 
 
 def _beyond(across: Floats, weight: Floats, least_m: float, crop: CropProfile) -> float | None:
-    """The nearest row beyond a place: the sliding window of III-A.2 across the rows, their heading being known."""
+    """The nearest row beyond a place: the sliding window of III-A.2, the rows' heading being known."""
     beyond = across > least_m
     places, mass = across[beyond], weight[beyond]
     if not len(places):

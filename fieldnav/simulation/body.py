@@ -15,7 +15,7 @@ SCRUB = 0.8
 
 @dataclass(frozen=True, slots=True)
 class Pose:
-    """Where the robot's centre is in the world: x along the first lane, y to the left, heading counter-clockwise."""
+    """Where the robot's centre is in the world, and its heading counter-clockwise from the world's x."""
 
     x_m: float
     y_m: float

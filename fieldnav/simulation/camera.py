@@ -1,7 +1,7 @@
 """The simulated camera: the Camera port with the latency, losses and calibration errors of a real one.
 
-Frames are drawn only when they are asked for; what was to be seen is kept from the moment of exposure, so a frame
-does not depend on whether others were drawn.
+Frames are drawn only when they are asked for; what was to be seen is kept from the moment of exposure, so a
+frame does not depend on whether others were drawn.
 """
 
 from collections import deque
@@ -43,7 +43,8 @@ class SimulatedCamera:
         self._height_m = self._pinhole.height_m + errors.height_error_m * float(drawn[1])
         self._focal_px = self._pinhole.focal_px * (1 + errors.focal_error * float(drawn[2]))
         self._losses = random_stream(world.field.seed, Stream.LOST_FRAMES, place)
-        self._sensor = Sensor(errors, self._pinhole.width_px, self._pinhole.height_px, world.field.seed + place, world.field.mirrored)
+        size_px = (self._pinhole.width_px, self._pinhole.height_px)
+        self._sensor = Sensor(errors, *size_px, world.field.seed + place, world.field.mirrored)
         # The two cameras do not expose at the same moment.
         self._due_s = place / len(CameraName) / self._settings.rate_hz
         self._sequence = 0
@@ -95,6 +96,6 @@ class SimulatedCamera:
         looking = 1 if self._name is CameraName.FRONT else -1
         across_px = float(self._pinhole.pixels_per_metre(self._pinhole.centre_y_px))
         along_px = across_px * sin(self._tilt_rad)
-        exposure_s = self._world.field.camera_errors.exposure_s
+        exposed = looking * self._world.field.camera_errors.exposure_s
         sideways_mps = now.twist.vy_mps + now.twist.yaw_rate_rps * looking * self._settings.distance_m
-        return looking * sideways_mps * across_px * exposure_s, looking * now.twist.vx_mps * along_px * exposure_s
+        return sideways_mps * across_px * exposed, now.twist.vx_mps * along_px * exposed

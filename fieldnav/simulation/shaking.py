@@ -16,7 +16,7 @@ FULL_SPEED_MPS = 0.15
 
 @dataclass(frozen=True, slots=True)
 class Attitude:
-    """Departure from level: roll about the robot's x, pitch about its y (positive: the front goes down), and height."""
+    """Departure from level: roll about the robot's x, pitch about its y (the front goes down), and height."""
 
     roll_rad: float = 0.0
     pitch_rad: float = 0.0
@@ -41,11 +41,12 @@ class Shaking:
         rms_rad = radians(self._errors.shake_deg)
         # Height: the sum stays within its bound for all but rare coincidences of the oscillations.
         bounce_m = self._errors.bounce_m / 2
-        return Attitude(self._roll_sign * float(roll) * rms_rad, float(pitch) * rms_rad, float(height) * bounce_m)
+        roll_rad = self._roll_sign * float(roll) * rms_rad
+        return Attitude(roll_rad, float(pitch) * rms_rad, float(height) * bounce_m)
 
 
 def rotation(attitude: Attitude, looking: int, heading_rad: float, tilt_rad: float) -> Floats:
-    """Rotation, shape (3, 3), camera to world, of a camera that looks towards `heading_rad` and down by the tilt.
+    """Rotation, shape (3, 3), camera to world, of a camera that looks towards a heading and down by the tilt.
 
     looking: +1 for a camera that looks ahead, -1 for one that looks back and rolls and pitches the other way.
     """

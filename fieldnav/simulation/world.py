@@ -4,11 +4,9 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from math import atan2, cos, hypot, radians, sin
 
-
 from drivers.simulated_modules import SimulatedModules
 from drivers.simulated_motion import ModuleErrors
 from fieldnav.messages import Twist, Wheel, WheelSetpoint
-from fieldnav.settings.crop import CropProfile
 from fieldnav.settings.field import FieldSettings, WheelErrors
 from fieldnav.settings.robot import Robot
 from fieldnav.simulation.body import Pose, body_motion
@@ -18,7 +16,7 @@ from fieldnav.simulation.streams import Stream, random_stream
 
 STEP_S = 0.005
 CORNERING_STIFFNESS = 4.0
-"""Side force over load, per radian of slip angle, of a wide tyre on loose soil (3 to 6 in terramechanics texts)."""
+"""Side force over load, per radian of slip angle, of a wide tyre on loose soil; our choice."""
 STANDING_MPS = 0.005
 """Static friction holds a wheel that hardly rolls on the slope."""
 FIRST_PLANTS_SEEN = 0.35
@@ -39,9 +37,9 @@ class World:
     """Advances the robot by what its wheel modules truly do."""
 
     def __init__(
-        self, plan: FieldPlan, field: FieldSettings, crop: CropProfile, robot: Robot, modules: SimulatedModules
+        self, plan: FieldPlan, field: FieldSettings, robot: Robot, modules: SimulatedModules
     ) -> None:
-        self.plan, self.field, self.crop, self.robot = plan, field, crop, robot
+        self.plan, self.field, self.robot = plan, field, robot
         self._modules = modules
         self._mirror = -1 if field.mirrored else 1
         self._shaking = Shaking(field.camera_errors, field.seed, field.mirrored)
@@ -72,7 +70,7 @@ class World:
         if speed_mps < STANDING_MPS:
             return twist
         slope = sin(radians(self.field.ground.side_slope_deg)) * self._mirror
-        drift_mps = -speed_mps * slope / CORNERING_STIFFNESS  # along the world's y, the left side being higher
+        drift_mps = -speed_mps * slope / CORNERING_STIFFNESS  # along the world's y: its left side is higher
         heading = self.now.pose.heading_rad
         along, across = drift_mps * sin(heading), drift_mps * cos(heading)
         if abs(twist.vy_mps) > abs(twist.vx_mps):  # rolling up or down the slope the drive holds the body
@@ -101,9 +99,9 @@ def module_errors(errors: WheelErrors, seed: int, mirrored: bool) -> dict[Wheel,
     drawn = {wheel: random.uniform(-1, 1, 2) for wheel in Wheel}
     result = {}
     for wheel, (speed, steering) in drawn.items():
-        zero_rad = radians(errors.steering_zero_deg) * steering
+        zero_rad = radians(errors.steering_zero_deg) * float(steering) * (-1 if mirrored else 1)
         place = _OPPOSITE[wheel] if mirrored else wheel
-        result[place] = ModuleErrors(1 + errors.speed_error * float(speed), float(-zero_rad if mirrored else zero_rad))
+        result[place] = ModuleErrors(1 + errors.speed_error * float(speed), zero_rad)
     return result
 
 
@@ -113,4 +111,3 @@ _OPPOSITE = {
     Wheel.REAR_LEFT: Wheel.REAR_RIGHT,
     Wheel.REAR_RIGHT: Wheel.REAR_LEFT,
 }
-

@@ -1,0 +1,42 @@
+"""The line that tells what a run is doing, while it does it."""
+
+import time
+
+from rich.live import Live
+from rich.text import Text
+
+from fieldnav.mission.loop import Tick
+from states.names import text
+
+REDRAW_S = 0.25
+STATE_WIDTH = 32
+"""Columns of the longest state's name."""
+
+
+class LiveLine:
+    """State, lane, rows, distance, speed and real-time factor, redrawn a few times a second."""
+
+    def __init__(self, live: Live, lanes: int) -> None:
+        self._live, self._lanes = live, lanes
+        self._started = time.perf_counter()
+        self._drawn = 0.0
+        self._distance_m = 0.0
+        self._at = (0.0, 0.0)
+
+    def watch(self, tick: Tick) -> None:
+        """Take in a tick; draws when the state has changed or the last drawing is old enough."""
+        at = (tick.forward_m, tick.sideways_m)
+        self._distance_m += abs(at[0] - self._at[0]) + abs(at[1] - self._at[1])
+        self._at = at
+        wall = time.perf_counter()
+        if wall - self._drawn < REDRAW_S and tick.change is None:
+            return
+        self._drawn = wall
+        twist = tick.passed.motion.twist
+        line = Text.assemble(
+            (f"{text(tick.state):{STATE_WIDTH}}", "bold"),
+            f"lane {tick.lane}/{self._lanes}  rows {tick.rows}  {self._distance_m:6.1f} m  ",
+            f"{abs(twist.vx_mps) + abs(twist.vy_mps):.2f} m/s  {tick.now_s:6.1f} s  ",
+            f"{tick.now_s / (wall - self._started):.1f} x real time",
+        )
+        self._live.update(line, refresh=True)
