@@ -71,4 +71,4 @@ def _draw_dot(canvas: Image, at: tuple[float, float], radius: int, colour: tuple
 
 
 def _fixed(value_px: float) -> int:
-    return int(round(value_px * 2**FRACTION_BITS))
+    return round(value_px * (1 << FRACTION_BITS))

@@ -29,7 +29,7 @@ OVERLAY_QUALITY = 92
 class Detection:
     """A picture and what was found in it.
 
-    camera: the robot's, at the picture's size; stride_px: from one position of the sliding window to the next.
+    camera: the robot's, at the picture's size; stride_px: from one place of the sliding window to the next.
     """
 
     path: Path

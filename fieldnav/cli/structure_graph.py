@@ -21,6 +21,7 @@ WIDTH_INCH = 12.8
 HEADROOM, FLOOR = 1.3, -0.12
 """The axis reaches so many times above the signal, and so far below zero to hold the rows' marks."""
 LEGEND_COLUMNS, MOST_TICKS = 4, 4
+MARK_SIZE, MARK_EDGE = 9.0, 1.8
 
 
 @dataclass(frozen=True, slots=True)
@@ -47,10 +48,9 @@ SIGNAL, PEAK, TROUGH, INK, PAPER, GRID = "#2f6db3", "#c8352b", "#2d8a3e", "#3333
 def draw_structure(
     structure: FieldStructure, rows: Sequence[RowLine], camera: Pinhole, stride_px: float
 ) -> Image:
-    """The signal over the windows' middles, its peaks and troughs, and where the rows pass the picture's middle.
+    """The signal over the windows' middles, its peaks and troughs, and where the rows pass at mid-height.
 
-    The windows lie `stride_px` apart. Returns shape (width * HEIGHT, width, 3), blue green red, as wide as the
-    camera's picture.
+    The windows lie `stride_px` apart. Returns shape (width * HEIGHT, width, 3), blue green red.
     """
     width_px, height_px = camera.width_px, max(1, round(camera.width_px * HEIGHT))
     dots = width_px / WIDTH_INCH
@@ -58,12 +58,15 @@ def draw_structure(
     canvas = FigureCanvasAgg(figure)
     axes = figure.add_axes((0, 0, 1, 1), facecolor=PAPER)
     count = len(structure.variance)
-    middles_px = camera.centre_x_px + stride_px * (np.arange(count) - (count - 1) / 2)
+    middles_px = np.asarray(
+        camera.centre_x_px + stride_px * (np.arange(count) - (count - 1) / 2), dtype=np.float64
+    )
     _draw_signal(axes, middles_px, structure)
     _draw_rows(axes, [(row.x_top_px + row.x_bottom_px) / 2 for row in rows])
     _dress(axes, structure, camera)
-    canvas.draw()
-    return cv2.resize(np.asarray(canvas.buffer_rgba())[:, :, 2::-1], (width_px, height_px)).astype(np.uint8)
+    canvas.draw()  # type: ignore[no-untyped-call]  # matplotlib types its backends in part
+    drawn = np.asarray(canvas.buffer_rgba())[:, :, 2::-1]  # type: ignore[no-untyped-call]  # the same
+    return np.asarray(cv2.resize(np.ascontiguousarray(drawn), (width_px, height_px)), dtype=np.uint8)
 
 
 def _draw_signal(axes: Axes, x: Floats, structure: FieldStructure) -> None:
@@ -73,15 +76,14 @@ def _draw_signal(axes: Axes, x: Floats, structure: FieldStructure) -> None:
     marks = ((structure.peaks, "^", PEAK, "peaks"), (structure.troughs, "v", TROUGH, "troughs"))
     for indices, marker, colour, label in marks:
         at = indices[(indices >= 0) & (indices < len(x))]
-        style = {"color": colour, "markerfacecolor": PAPER, "markeredgewidth": 1.8, "markersize": 9}
-        axes.plot(x[at], y[at], linestyle="none", marker=marker, label=label, zorder=3, **style)
+        (drawn,) = axes.plot(x[at], y[at], linestyle="none", marker=marker, label=label, zorder=3)
+        drawn.set(color=colour, markerfacecolor=PAPER, markeredgewidth=MARK_EDGE, markersize=MARK_SIZE)
 
 
 def _draw_rows(axes: Axes, x: Sequence[float]) -> None:
-    style = {"markersize": 9, "markerfacecolor": ROW_COLOUR.hex, "markeredgecolor": INK}
-    axes.plot(
-        x, np.zeros(len(x)), linestyle="none", marker="s", label="rows at mid-height", zorder=4, **style
-    )
+    label = "rows at mid-height"
+    (drawn,) = axes.plot(x, np.zeros(len(x)), linestyle="none", marker="s", label=label, zorder=4)
+    drawn.set(markersize=MARK_SIZE, markerfacecolor=ROW_COLOUR.hex, markeredgecolor=INK)
     for each in x:
         axes.axvline(each, color=ROW_COLOUR.hex, linewidth=1.5, zorder=1)
 

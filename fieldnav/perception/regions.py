@@ -56,8 +56,11 @@ def _cut(
     counts = sections[tall]
     first = np.full(len(sections) + 1, -1)
     first[tall + 1] = np.concatenate([[0], np.cumsum(counts)[:-1]])
-    y, x = np.nonzero(first[labels] >= 0)
-    label = labels[y, x]
+    pixel = np.flatnonzero(labels)
+    label = labels.ravel()[pixel]
+    wanted = first[label] >= 0
+    pixel, label = pixel[wanted], label[wanted]
+    y, x = np.divmod(pixel, labels.shape[1])
     top, height = found.top[label - 1], found.bottom[label - 1] - found.top[label - 1] + 1
     number = first[label] + ((y - top) * sections[label - 1] / height).astype(np.int64)
     size = int(counts.sum())

@@ -1,0 +1,1 @@
+"""The state machine as a picture: boxes, arrows, SVG."""
