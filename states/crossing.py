@@ -71,7 +71,7 @@ class CrossingRows:
     def _recognise(
         self, frame: Frame, rows: Crossing, switch: SwitchMemory
     ) -> tuple[Crossing, tuple[Evidence, ...]]:
-        """Compare the outermost row in view with the stored one: it refreshes it or, being new, replaces it."""
+        """Compare the outermost row in view with the stored one: it refreshes that one or replaces it."""
         crop, camera = self._task.crop, self._task.cameras[frame.camera]
         candidate = candidate_row(rows, crop, camera)
         self._frames += 1

@@ -29,6 +29,11 @@ class LaneMemory:
     switch: SwitchMemory | None = None
 
     @property
+    def rows_passed(self) -> int:
+        """New rows counted in this lane's switch so far."""
+        return self.switch.crossing.passed if self.switch and self.switch.crossing else 0
+
+    @property
     def rows(self) -> int:
         """C, the number of rows under the robot: this lane's most frequent count; 0 before any was seen."""
         return self.counts.most_common(1)[0][0] if self.counts else 0

@@ -17,13 +17,14 @@ STEM_M = 0.01
 
 @dataclass(slots=True)
 class TruePath:
-    """Where the robot was at each tick, in which state, and which lane it believed to drive."""
+    """Where the robot was at each tick, in which state, and what it believed of lane and rows."""
 
     x_m: list[float] = field(default_factory=list)
     y_m: list[float] = field(default_factory=list)
     heading_rad: list[float] = field(default_factory=list)
     states: list[StatePath] = field(default_factory=list)
     lanes: list[int] = field(default_factory=list)
+    rows_passed: list[int] = field(default_factory=list)
 
     def xy(self) -> Floats:
         """Shape (n, 2)."""
@@ -45,6 +46,7 @@ class PathObserver:
         self.path.heading_rad.append(pose.heading_rad)
         self.path.states.append(tick.state)
         self.path.lanes.append(tick.lane)
+        self.path.rows_passed.append(tick.rows_passed)
         self._roll_over()
 
     def _roll_over(self) -> None:

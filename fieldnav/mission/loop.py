@@ -39,6 +39,7 @@ class Tick:
     passed: Passed
     lane: int
     rows: int
+    rows_passed: int
     forward_m: float
     sideways_m: float
 
@@ -193,6 +194,7 @@ class Mission:
             passed,
             lane.number,
             lane.rows,
+            lane.rows_passed,
             self._forward_m,
             self._sideways_m,
         )

@@ -15,7 +15,7 @@ from fieldnav.mission.loop import Tick
 from fieldnav.perception.tracking import Feature
 from fieldnav.settings.robot import Robot
 from fieldnav.simulation.plan import FieldPlan
-from states.names import Phase, Sidestep, text
+from states.names import Phase, text
 
 MAP_STEP_M = 0.25
 SHOWN_AS = 0.5
@@ -65,11 +65,9 @@ def draw_run(path: Path, plan: FieldPlan, observer: PathObserver, name: str, sum
     xy = driven.xy()
     ends, crossings = [], []
     for index, state in enumerate(driven.states[1:], start=1):
-        if state == driven.states[index - 1]:
-            continue
-        if Phase.EXIT in state:
+        if Phase.EXIT in state and state != driven.states[index - 1]:
             ends.append(xy[index])
-        elif state[-1] in (Sidestep.CROSSING, Sidestep.SETTLING):
+        if driven.rows_passed[index] > driven.rows_passed[index - 1]:
             crossings.append(xy[index])
     lanes, rows = _lines(plan)
     truth = summary.truth

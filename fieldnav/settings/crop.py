@@ -118,7 +118,7 @@ class Speeds(Settings):
 
     follow_mps: float = Field(default=0.5, gt=0, le=1.5)
     acquire_mps: float = Field(default=0.2, gt=0, le=1.0)
-    exit_mps: float = Field(default=0.3, gt=0, le=1.0)
+    exit_mps: float = Field(default=0.5, gt=0, le=1.0)
     sidestep_mps: float = Field(default=0.15, gt=0, le=0.5)
 
 
