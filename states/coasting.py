@@ -35,8 +35,8 @@ class Coasting:
         agreed = self._agreement.add(found.lane)
         coasted_m = abs(seen.forward_m - self._entered_m)
         limit_m = self._task.crop.row_end.longest_gap_m
-        plants_ahead = len(in_part(found.centres, self._task.cameras[frame.camera], ImagePart.TOP))
-        ended = self._end.add(plants_ahead, frame.stamp_s, seen.forward_m)
+        ahead = len(in_part(found.centres, self._task.cameras[frame.camera], ImagePart.TOP))
+        ended = self._end.add(ahead > 0, frame.stamp_s, seen.forward_m)
         evidence = (
             self._agreement.evidence(),
             *self._end.evidence("top half"),

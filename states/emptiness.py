@@ -12,9 +12,9 @@ class Emptiness:
         self.time_s = 0.0
         self.distance_m = 0.0
 
-    def add(self, crop_centres: int, now_s: float, travelled_m: float) -> bool:
-        """Take in one frame's count of crop centres; true once the emptiness has lasted."""
-        if crop_centres:
+    def add(self, crop_left: bool, now_s: float, travelled_m: float) -> bool:
+        """Take in whether a frame shows crop there; true once the emptiness has lasted."""
+        if crop_left:
             self._since = None
             self.time_s = self.distance_m = 0.0
             return False

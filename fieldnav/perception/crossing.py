@@ -25,10 +25,12 @@ OFF_SPACING = 0.3
 """New rows stand a whole number of row spacings apart, within this share of one."""
 MOST_SKIPPED = 2
 """Row spacings between two new rows in a chain: one row may have failed to grow at its end."""
-SLOPE_BLEND = 0.2
-"""Weight of one frame's heading in the running one; single frames err by several degrees."""
-PRIOR_SPREAD_M2 = 0.02
-"""Whole plants times square metres: a spread along the rows below this says little of the heading."""
+SCATTER_M = 0.03
+"""Standard deviation of the middle of what is seen of a plant from its row."""
+SLOPE_DRIFT = 0.003
+"""Standard deviation of the heading's change from one frame to the next."""
+FIRST_SLOPE = 0.05
+"""Standard deviation of the heading that the lane's rows gave; single looks err by several degrees."""
 MEMBER = 0.6
 """A plant belongs to a row within this share of the canopy's width."""
 WINDOW = 1.0
@@ -57,6 +59,7 @@ class Crossing:
     outward: int
     rows: tuple[PassingRow, ...]
     slope: float
+    slope_variance: float = FIRST_SLOPE**2
     candidate_m: float | None = None
     candidate_frames: int = 0
 
@@ -89,11 +92,15 @@ def follow(crossing: Crossing, centres: Centres, crop: CropProfile, camera: Pinh
     for _ in range(ROUNDS):
         row = _members(across, places, crop)
         places = _moved(places, across, weight, row)
-    slope = crossing.slope + SLOPE_BLEND * crossing.outward * _lean(ahead, across, weight, row, len(places))
+    lean, spread_m2 = _lean(ahead, across, weight, row, len(places))
+    variance = crossing.slope_variance + SLOPE_DRIFT**2
+    # A Kalman filter of one state: plants close together along the rows say little of the heading.
+    trust = variance / (variance + SCATTER_M**2 / max(spread_m2, SMALLEST_MASS))
+    slope = crossing.slope + trust * crossing.outward * lean
     rows = tuple(
         replace(old, across_m=float(place)) for old, place in zip(crossing.rows, places, strict=True)
     )
-    moved = replace(crossing, rows=rows, slope=slope)
+    moved = replace(crossing, rows=rows, slope=slope, slope_variance=(1 - trust) * variance)
     least = moved.outermost.across_m + NEW_ROW * crop.rows.spacing_m
     candidate = _beyond(across, weight, least, crop)
     if candidate is None:
@@ -182,15 +189,20 @@ def _moved(places: Floats, across: Floats, weight: Floats, row: NDArray[np.int64
     return places + np.where(seen, shift, common)
 
 
-def _lean(ahead: Floats, across: Floats, weight: Floats, row: NDArray[np.int64], count: int) -> float:
-    """Slope that the plants still have along their rows: the pooled weighted regression; 0 without any."""
+def _lean(
+    ahead: Floats, across: Floats, weight: Floats, row: NDArray[np.int64], count: int
+) -> tuple[float, float]:
+    """Slope that the plants still have along their rows, and the spread in m2 that it rests on.
+
+    The pooled weighted regression of all rows, each about its own middle.
+    """
     inside = row >= 0
     row, weight = row[inside], weight[inside]
     mass = np.maximum(np.bincount(row, weight, count), SMALLEST_MASS)
     x = ahead[inside] - (np.bincount(row, weight * ahead[inside], count) / mass)[row]
     y = across[inside] - (np.bincount(row, weight * across[inside], count) / mass)[row]
-    # A short stretch of plants says little about the heading: the prior pulls it to zero.
-    return float((weight * x * y).sum() / ((weight * x * x).sum() + PRIOR_SPREAD_M2))
+    spread = float((weight * x * x).sum())
+    return float((weight * x * y).sum()) / max(spread, SMALLEST_MASS), spread
 
 
 def _beyond(across: Floats, weight: Floats, least_m: float, crop: CropProfile) -> float | None:

@@ -40,6 +40,17 @@ def centres_in_rows(
     return np.asarray(belongs)
 
 
+def plants_in_rows(
+    centres: Centres, rows: tuple[RowLine, ...], crop: CropProfile, camera: Pinhole, part: ImagePart
+) -> float:
+    """How much crop stands in the rows in that part of the image, in whole plants.
+
+    Each region counts by its area, so that small weeds in line with the rows do not pass for crop.
+    """
+    belongs = centres_in_rows(centres, rows, crop, camera, part)
+    return float(on_ground(centres, crop, camera).weight[belongs].sum())
+
+
 def crop_stretch_m(
     centres: Centres, rows: tuple[RowLine, ...], crop: CropProfile, camera: Pinhole
 ) -> tuple[float, float] | None:

@@ -86,6 +86,9 @@ class RowEnd(Settings):
         le=1,
         description="every centimetre more is less of the rows left to see and to count",
     )
+    least_plants: float = Field(
+        default=0.3, ge=0, le=10, description="crop in half a view, in whole plants, that is still a row"
+    )
     longest_gap_m: float = Field(
         default=2.0, ge=0, le=10, description="stretch without any plant that is no row end"
     )
