@@ -110,7 +110,7 @@ class Exiting:
         return self._lane.trailing
 
     def _speed_mps(self, rows: TrackedRows, centres: Centres, camera: Pinhole) -> float:
-        """Slower as the last plants near the view's middle: every centimetre past it is less of them to see."""
+        """Slower as the last plants near the view's middle: each centimetre past it shows less of them."""
         crop = self._task.crop
         nearest_m = nearest_crop_m(centres, rows.rows, crop, camera)
         middle = np.array([camera.centre_x_px, camera.centre_y_px])

@@ -1,4 +1,4 @@
-"""Whole missions, from the first frame to the run directory: real states, driver, frames and simulated field."""
+"""Whole missions: real states, driver and CAN frames, on a simulated field, to the run directory."""
 
 import json
 from pathlib import Path
@@ -12,7 +12,7 @@ from fieldnav.journal.entry import Line
 from fieldnav.journal.journal import read
 from fieldnav.journal.summary import Summary
 from fieldnav.messages import Floats, Side
-from fieldnav.mission.loop import Tick
+from fieldnav.mission.tick import Tick
 from fieldnav.mission.simulated import Run, simulate
 from fieldnav.settings.loading import load_crop, load_field, load_robot, revised
 from fieldnav.settings.robot import Robot

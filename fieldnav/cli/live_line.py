@@ -5,7 +5,7 @@ import time
 from rich.live import Live
 from rich.text import Text
 
-from fieldnav.mission.loop import Tick
+from fieldnav.mission.tick import Tick
 from states.names import text
 
 REDRAW_S = 0.25

@@ -2,9 +2,9 @@
 
 The feature is the lane's average line, [a, H/2, theta]; the law drives it to [0, H/2, 0] by the yaw rate
 alone while the robot travels at a given speed. The interaction matrix is that of Cherubini, Chaumette and
-Oriolo, "Visual servoing for path reaching with nonholonomic robots" (Robotica 29, 2011), in its row form: the line is
-observed where it crosses a fixed image row. X and Y are pixels from the image's centre over the focal length,
-theta is the line's angle from the image's vertical, positive clockwise.
+Oriolo, "Visual servoing for path reaching with nonholonomic robots" (Robotica 29, 2011), in its row form: the
+line is observed where it crosses a fixed image row. X and Y are pixels from the image's centre over the focal
+length, theta is the line's angle from the image's vertical, positive clockwise.
 """
 
 from math import cos, sin, tan

@@ -6,7 +6,7 @@ from math import cos, hypot, sin
 import numpy as np
 
 from fieldnav.messages import Floats
-from fieldnav.mission.loop import Tick
+from fieldnav.mission.tick import Tick
 from fieldnav.simulation.world import World
 from states.names import Path as StatePath
 

@@ -4,7 +4,7 @@ from collections import Counter
 from itertools import pairwise
 
 from fieldnav.journal.summary import Headland, Lanes, Summary, Switches, Truth
-from fieldnav.mission.loop import Tick
+from fieldnav.mission.tick import Tick
 from states.names import Event
 from states.table import FINISHED
 

@@ -1,9 +1,7 @@
 """The loop: frame to perception to state to gate, once a tick; the only place that fires the machine."""
 
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
 from math import hypot
-from typing import Protocol
 
 from drivers.ports import Camera, Wheels
 from fieldnav.control.kinematics import body_twist
@@ -12,11 +10,12 @@ from fieldnav.journal.entry import Entry
 from fieldnav.journal.journal import Journal
 from fieldnav.messages import CameraName, Frame, Motion, Twist, WheelReport, WheelSetpoint
 from fieldnav.mission.gate import Gate, Passed
+from fieldnav.mission.tick import Observer, Tick
 from fieldnav.settings.robot import Robot
 from states.behaviour import Observation, Step, Task
 from states.behaviours import Behaviours
 from states.machine import Change, MissionMachine
-from states.names import Event, Path, text
+from states.names import Event, text
 from states.table import FINISHED, LANE_LEAVES, LATCHED, RECOVERABLE
 
 TICK_S = 0.02
@@ -26,28 +25,6 @@ REFUSED_LIMIT_S = 2.0
 STANDING = Passed(Motion(), {})
 STANDING_MPS = 0.01
 STANDING_RPS = 0.01
-
-
-@dataclass(frozen=True, slots=True)
-class Tick:
-    """What happened in one tick, for those who watch."""
-
-    now_s: float
-    state: Path
-    change: Change | None
-    step: Step
-    passed: Passed
-    lane: int
-    rows: int
-    rows_passed: int
-    forward_m: float
-    sideways_m: float
-
-
-class Observer(Protocol):
-    """Watches the mission; what it does has no way back into it."""
-
-    def watch(self, tick: Tick) -> None: ...
 
 
 class Mission:

@@ -11,7 +11,7 @@ from fieldnav.journal.map import RunMap, draw_map
 from fieldnav.journal.overlay import OverlayView, OverlayWriter, draw_overlay
 from fieldnav.journal.summary import Summary
 from fieldnav.messages import RowLine, Twist
-from fieldnav.mission.loop import Tick
+from fieldnav.mission.tick import Tick
 from fieldnav.perception.tracking import Feature
 from fieldnav.settings.robot import Robot
 from fieldnav.simulation.plan import FieldPlan

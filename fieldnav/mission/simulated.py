@@ -21,8 +21,9 @@ from fieldnav.journal.resolved import write_settings
 from fieldnav.journal.summary import Summary, write_summary
 from fieldnav.messages import CameraName, Side
 from fieldnav.mission.figures import Figures
-from fieldnav.mission.loop import TICK_S, Mission, Observer
+from fieldnav.mission.loop import TICK_S, Mission
 from fieldnav.mission.pictures import OverlayObserver, draw_run
+from fieldnav.mission.tick import Observer
 from fieldnav.settings.crop import CropProfile
 from fieldnav.settings.field import FieldSettings
 from fieldnav.settings.fit import check_fit

@@ -8,17 +8,22 @@ moves, all of them shrink together; how fast is seen, not taken from the wheels.
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import NDArray
 
-from fieldnav.messages import Centres, Floats, RowLine
+from fieldnav.messages import Centres, RowLine
 from fieldnav.perception.canopy import canopy_plane, half_width_px, line_px, plant_area_m2
+from fieldnav.perception.passing import (
+    SAME_ROW,
+    SMALLEST_MASS,
+    carried_along,
+    lean_of,
+    row_beyond,
+    row_of,
+)
 from fieldnav.pinhole import Pinhole
 from fieldnav.settings.crop import CropProfile
 
 LOOK_AT = 0.25
 """The image row at which rows are placed, over the image's height."""
-SAME_ROW = 0.4
-"""A line belongs to a known row within this share of the row spacing; a frame moves the rows by 1 cm."""
 NEW_ROW = 0.6
 """A row is a new one when it lies past the outermost by more than this share of the row spacing."""
 OFF_SPACING = 0.3
@@ -31,13 +36,6 @@ SLOPE_DRIFT = 0.003
 """Standard deviation of the heading's change from one frame to the next."""
 FIRST_SLOPE = 0.05
 """Standard deviation of the heading that the lane's rows gave; single looks err by several degrees."""
-MEMBER = 0.6
-"""A plant belongs to a row within this share of the canopy's width."""
-WINDOW = 1.0
-"""Width of the sliding window over the canopy's width."""
-ROW_MASS = 0.25
-"""Canopy in the window that makes a row, in squares of the canopy's width; most weeds have less."""
-SMALLEST_MASS = 1e-6
 ROUNDS = 2
 
 
@@ -90,9 +88,9 @@ def follow(crossing: Crossing, centres: Centres, crop: CropProfile, camera: Pinh
     across = crossing.outward * (left - crossing.slope * ahead)
     places = np.array([row.across_m for row in crossing.rows])
     for _ in range(ROUNDS):
-        row = _members(across, places, crop)
-        places = _moved(places, across, weight, row)
-    lean, spread_m2 = _lean(ahead, across, weight, row, len(places))
+        row = row_of(across, places, crop)
+        places = carried_along(places, across, weight, row)
+    lean, spread_m2 = lean_of(ahead, across, weight, row, len(places))
     variance = crossing.slope_variance + SLOPE_DRIFT**2
     # A Kalman filter of one state: plants close together along the rows say little of the heading.
     trust = variance / (variance + SCATTER_M**2 / max(spread_m2, SMALLEST_MASS))
@@ -102,7 +100,7 @@ def follow(crossing: Crossing, centres: Centres, crop: CropProfile, camera: Pinh
     )
     moved = replace(crossing, rows=rows, slope=slope, slope_variance=(1 - trust) * variance)
     least = moved.outermost.across_m + NEW_ROW * crop.rows.spacing_m
-    candidate = _beyond(across, weight, least, crop)
+    candidate = row_beyond(across, weight, least, crop)
     if candidate is None:
         return replace(moved, candidate_m=None, candidate_frames=0)
     last = crossing.candidate_m
@@ -167,60 +165,6 @@ def rows_in_image(crossing: Crossing, crop: CropProfile, camera: Pinhole) -> tup
     plane = canopy_plane(camera, crop)
     lines = (_line(crossing, row.across_m, plane) for row in crossing.rows)
     return tuple(sorted(lines, key=lambda line: line.x_bottom_px))
-
-
-def _members(across: Floats, places: Floats, crop: CropProfile) -> NDArray[np.int64]:
-    """The row that each plant belongs to, -1 for none; shape (n,)."""
-    away = np.abs(across[:, None] - places[None, :])
-    within = min(SAME_ROW * crop.rows.spacing_m, MEMBER * crop.plants.canopy_width_m)
-    nearest = away.argmin(axis=1)
-    return np.where(away.min(axis=1, initial=np.inf) <= within, nearest, -1)
-
-
-def _moved(places: Floats, across: Floats, weight: Floats, row: NDArray[np.int64]) -> Floats:
-    """Rows at the weighted mean of their plants; those without any go along with the others."""
-    count = len(places)
-    inside = row >= 0
-    mass = np.bincount(row[inside], weight[inside], count)
-    mean = np.bincount(row[inside], (weight * across)[inside], count) / np.maximum(mass, SMALLEST_MASS)
-    seen = mass > SMALLEST_MASS
-    shift = np.where(seen, mean - places, 0.0)
-    common = float(np.average(shift[seen], weights=mass[seen])) if seen.any() else 0.0
-    return places + np.where(seen, shift, common)
-
-
-def _lean(
-    ahead: Floats, across: Floats, weight: Floats, row: NDArray[np.int64], count: int
-) -> tuple[float, float]:
-    """Slope that the plants still have along their rows, and the spread in m2 that it rests on.
-
-    The pooled weighted regression of all rows, each about its own middle.
-    """
-    inside = row >= 0
-    row, weight = row[inside], weight[inside]
-    mass = np.maximum(np.bincount(row, weight, count), SMALLEST_MASS)
-    x = ahead[inside] - (np.bincount(row, weight * ahead[inside], count) / mass)[row]
-    y = across[inside] - (np.bincount(row, weight * across[inside], count) / mass)[row]
-    spread = float((weight * x * x).sum())
-    return float((weight * x * y).sum()) / max(spread, SMALLEST_MASS), spread
-
-
-def _beyond(across: Floats, weight: Floats, least_m: float, crop: CropProfile) -> float | None:
-    """The nearest row beyond a place: the sliding window of III-A.2, the rows' heading being known."""
-    beyond = across > least_m
-    places, mass = across[beyond], weight[beyond]
-    if not len(places):
-        return None
-    half = WINDOW * crop.plants.canopy_width_m / 2
-    inside = np.abs(places[None, :] - places[:, None]) <= half
-    heavy = inside @ mass
-    enough = heavy >= ROW_MASS
-    if not enough.any():
-        return None
-    first = places[enough].min()
-    near = enough & (places <= first + 2 * half)
-    window = inside[near][int(heavy[near].argmax())]
-    return float(np.average(places[window], weights=mass[window]))
 
 
 def _look_at_m(plane: Pinhole) -> float:

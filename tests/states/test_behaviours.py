@@ -1,0 +1,372 @@
+"""Each behaviour on drawn pictures: what it wants of the wheels, when it has an event, and why."""
+
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+
+from fieldnav.messages import CameraName, Direction, Frame, Side, Steering
+from fieldnav.perception.crossing import begin
+from fieldnav.perception.perceive import lane_of
+from fieldnav.perception.tracking import start
+from fieldnav.perception.vegetation import find_plants
+from states.acquiring import CREEP_LIMIT_M, STANDING_LOOK_S, Acquiring
+from states.behaviour import Step, Task
+from states.behaviours import Behaviours
+from states.coasting import Coasting
+from states.crossing import CrossingRows
+from states.exiting import Exiting
+from states.machine import Change
+from states.memory import LaneMemory, SwitchMemory
+from states.names import Event, Follow, Phase, Sidestep, text
+from states.orienting import LONGEST_S, Orienting
+from states.sampling import Sampling
+from states.settling import Settling
+from states.standing import CHECK_S, Checking
+from states.table import LANE_LEAVES
+from states.tracking import Tracking
+
+DIRECTIONS = pytest.mark.parametrize("direction", Direction, ids=lambda direction: direction.value)
+LEAVES = pytest.mark.parametrize("leaf", LANE_LEAVES, ids=text)
+DT_S = 1 / 15
+
+
+def judged(step: Step, name: str) -> float:
+    (found,) = [each.value for each in step.evidence if each.name == name]
+    return found
+
+
+def lane(drawn: SimpleNamespace, number: int = 1) -> LaneMemory:
+    """The memory of a lane whose rows both cameras see."""
+    centres, _ = find_plants(
+        drawn.picture(drawn.crop, drawn.rows(drawn.crop)), drawn.crop.vegetation, drawn.camera
+    )
+    fit = lane_of(centres, drawn.crop, drawn.camera)
+    assert fit
+    rows = start(fit, 0.0)
+    return LaneMemory(number=number, leading=rows, trailing=rows, switch=SwitchMemory(started_m=0.0))
+
+
+def drive(
+    behaviour: Acquiring | Coasting | Tracking | Exiting,
+    situation: SimpleNamespace,
+    images: dict[CameraName, np.ndarray],
+    seconds: float,
+) -> Step:
+    """Obey the behaviour until it has an event or the time is over; returns its last step."""
+    for _ in range(round(seconds / DT_S)):
+        step = behaviour.step(situation.seen(images))
+        if step.event:
+            break
+        situation.forward_m += step.motion.twist.vx_mps * DT_S
+    return step
+
+
+@DIRECTIONS
+def test_acquiring_believes_rows_that_several_frames_show(
+    direction: Direction, drawn: SimpleNamespace
+) -> None:
+    memory, situation = LaneMemory(number=1), drawn.situation()
+    acquiring = Acquiring(drawn.task, direction, memory)
+    images = {direction.leading: drawn.picture(drawn.crop, drawn.rows(drawn.crop))}
+
+    assert acquiring.step(situation.seen(images)).event is None
+    step = drive(acquiring, situation, images, 2.0)
+
+    assert step.event is Event.ROWS_FOUND
+    assert memory.leading and len(memory.leading.rows) == memory.rows == drawn.crop.rows.per_lane
+
+
+@DIRECTIONS
+def test_acquiring_without_rows_stands_then_creeps_boundedly_then_says_why_it_stops(
+    direction: Direction, drawn: SimpleNamespace
+) -> None:
+    situation = drawn.situation()
+    acquiring = Acquiring(drawn.task, direction, LaneMemory(number=1))
+    bare = {direction.leading: drawn.picture(drawn.crop, np.empty((0, 2)))}
+
+    standing = drive(acquiring, situation, bare, 0.9 * STANDING_LOOK_S)
+    assert standing.motion.twist.vx_mps == 0.0 and situation.forward_m == 0.0
+    step = drive(acquiring, situation, bare, 60.0)
+
+    assert step.event is Event.FAIL and step.reason == "no rows found"
+    assert step.motion.twist.vx_mps == 0.0
+    assert CREEP_LIMIT_M < direction.sign * situation.forward_m < CREEP_LIMIT_M + 0.1
+    assert judged(step, "crept") > CREEP_LIMIT_M
+
+
+def test_between_frames_a_behaviour_wants_the_same_motion_and_decides_nothing(drawn: SimpleNamespace) -> None:
+    situation = drawn.situation()
+    tracking = Tracking(drawn.task, Direction.FORWARD, lane(drawn))
+    images = {CameraName.FRONT: drawn.picture(drawn.crop, drawn.rows(drawn.crop, offset_m=0.05))}
+
+    with_frame, without = tracking.step(situation.seen(images)), tracking.step(situation.seen())
+
+    assert without.motion == with_frame.motion and with_frame.motion.twist.vx_mps > 0
+    assert without.event is None and without.sight is None
+
+
+@DIRECTIONS
+def test_tracking_steers_towards_rows_that_lie_aside(direction: Direction, drawn: SimpleNamespace) -> None:
+    for offset_m in (-0.06, 0.06):
+        memory, situation = lane(drawn), drawn.situation()
+        tracking = Tracking(drawn.task, direction, memory)
+        images = {direction.leading: drawn.picture(drawn.crop, drawn.rows(drawn.crop, offset_m=offset_m))}
+
+        for _ in range(3):
+            step = tracking.step(situation.seen(images))
+
+        assert direction.sign * step.motion.twist.vx_mps == pytest.approx(drawn.crop.speeds.follow_mps)
+        # Looking along the way, rows to the left ask for a turn to the left, whichever camera leads.
+        assert np.sign(step.motion.twist.yaw_rate_rps) == np.sign(offset_m)
+
+
+@DIRECTIONS
+def test_tracking_ends_the_lane_when_the_far_half_stays_empty(
+    direction: Direction, drawn: SimpleNamespace
+) -> None:
+    memory, situation = lane(drawn), drawn.situation()
+    tracking = Tracking(drawn.task, direction, memory)
+    middle_m = float(
+        drawn.camera.to_ground(np.array([drawn.camera.centre_x_px, drawn.camera.centre_y_px]))[0]
+    )
+    ending = {direction.leading: drawn.picture(drawn.crop, drawn.rows(drawn.crop, to_m=middle_m - 0.15))}
+    began_s = situation.now_s
+
+    step = drive(tracking, situation, ending, 5.0)
+
+    assert step.event is Event.LANE_ENDED
+    assert situation.now_s - began_s >= drawn.crop.row_end.confirm_s
+    assert abs(situation.forward_m) >= drawn.crop.row_end.confirm_m
+
+
+def test_a_robot_that_stands_before_an_empty_view_has_not_reached_the_end(drawn: SimpleNamespace) -> None:
+    situation = drawn.situation()
+    tracking = Tracking(drawn.task, Direction.FORWARD, lane(drawn))
+    bare = {CameraName.FRONT: drawn.picture(drawn.crop, np.empty((0, 2)))}
+
+    steps = [tracking.step(situation.seen(bare)) for _ in range(60)]
+
+    assert {step.event for step in steps} == {None}
+
+
+@DIRECTIONS
+def test_coasting_finds_the_rows_again(direction: Direction, drawn: SimpleNamespace) -> None:
+    memory, situation = lane(drawn), drawn.situation()
+    memory.leading = None
+    coasting = Coasting(drawn.task, direction, memory)
+    images = {direction.leading: drawn.picture(drawn.crop, drawn.rows(drawn.crop))}
+
+    step = drive(coasting, situation, images, 2.0)
+
+    assert step.event is Event.ROWS_FOUND and memory.leading is not None
+
+
+def test_coasting_among_weeds_gives_up_after_the_longest_gap(drawn: SimpleNamespace) -> None:
+    situation = drawn.situation()
+    coasting = Coasting(drawn.task, Direction.FORWARD, lane(drawn))
+    weed = {CameraName.FRONT: drawn.picture(drawn.crop, np.array([[1.7, 0.2]]))}
+
+    step = drive(coasting, situation, weed, 60.0)
+
+    assert step.event is Event.FAIL and "longest gap" in step.reason
+    gap_m = drawn.crop.row_end.longest_gap_m
+    assert gap_m < situation.forward_m < gap_m + 0.1
+
+
+@DIRECTIONS
+def test_exit_without_rows_behind_fails_within_the_length_of_the_exit(
+    direction: Direction, drawn: SimpleNamespace
+) -> None:
+    situation = drawn.situation()
+    bare = drawn.picture(drawn.crop, np.empty((0, 2)))
+    exiting = Exiting(drawn.task, direction, lane(drawn))
+
+    step = drive(exiting, situation, {name: bare for name in CameraName}, 60.0)
+
+    assert step.event is Event.FAIL and step.reason == "no rows behind to leave by"
+    assert direction.sign * situation.forward_m < sum(drawn.camera.view_m) + 0.1
+
+
+def test_orienting_waits_for_standstill_and_then_for_the_wheels(drawn: SimpleNamespace) -> None:
+    memory, situation = LaneMemory(number=1), drawn.situation()
+    situation.stopped, situation.aligned, situation.sideways_m = False, True, 0.4
+    orienting = Orienting(drawn.task, Direction.FORWARD, memory)
+
+    rolling = [orienting.step(situation.seen()) for _ in range(20)]
+    assert all(step.event is None and step.motion.steering is Steering.DIFFERENTIAL for step in rolling)
+    situation.stopped, situation.aligned = True, False
+    turning = [orienting.step(situation.seen()) for _ in range(20)]
+    assert all(step.event is None and step.motion.hold for step in turning)
+    assert turning[-1].motion.steering is Steering.OMNIDIRECTIONAL
+    situation.aligned = True
+    step = orienting.step(situation.seen())
+
+    assert step.event is Event.WHEELS_TURNED and step.motion.hold
+    assert memory.switch and memory.switch.started_m == 0.4
+
+
+def test_wheels_that_do_not_turn_are_a_fault_with_a_reason(drawn: SimpleNamespace) -> None:
+    situation = drawn.situation()
+    situation.aligned = False
+    orienting = Orienting(drawn.task, Direction.FORWARD, LaneMemory(number=1))
+
+    orienting.step(situation.seen())
+    step = orienting.step(situation.seen(dt_s=LONGEST_S + 0.1))
+
+    assert step.event is Event.FAIL and step.reason == "the wheels do not turn across"
+
+
+@DIRECTIONS
+@pytest.mark.parametrize("side", Side, ids=lambda side: side.value)
+def test_sampling_stands_and_describes_the_row_nearest_the_next_lane(
+    direction: Direction, side: Side, drawn: SimpleNamespace
+) -> None:
+    task = Task(drawn.crop, drawn.task.cameras, side, 2)
+    memory, situation = lane(drawn), drawn.situation()
+    sampling = Sampling(task, direction, memory)
+    images = {direction.trailing: drawn.picture(drawn.crop, drawn.rows(drawn.crop, from_m=1.1))}
+
+    steps = [sampling.step(situation.seen(images)) for _ in range(6)]
+    step = next(step for step in steps if step.event)
+
+    assert all(each.motion.hold for each in steps)
+    assert step.event is Event.ROW_SAMPLED
+    assert memory.switch and memory.switch.crossing and memory.switch.reference is not None
+    outermost = memory.switch.crossing.outermost
+    assert outermost.number == 0
+    assert outermost.across_m == pytest.approx(drawn.crop.rows.spacing_m, abs=0.05), "towards the next lane"
+
+
+@pytest.mark.parametrize("behaviour", [CrossingRows, Settling])
+@DIRECTIONS
+def test_a_sidestep_past_its_bound_stops_and_says_so(
+    behaviour: type[CrossingRows] | type[Settling], direction: Direction, drawn: SimpleNamespace
+) -> None:
+    memory, situation = lane(drawn), drawn.situation()
+    moving = behaviour(drawn.task, direction, memory)
+    limit_m = drawn.crop.switching.longest_sidestep_m
+
+    situation.sideways_m = -(limit_m - 0.01)
+    assert moving.step(situation.seen()).event is None
+    situation.sideways_m = -(limit_m + 0.01)
+    step = moving.step(situation.seen())
+
+    assert step.event is Event.FAIL and "lane" in step.reason
+    assert step.motion.twist.vy_mps == 0.0
+    assert judged(step, "moved sideways") == pytest.approx(limit_m + 0.01)
+
+
+@DIRECTIONS
+@pytest.mark.parametrize("side", Side, ids=lambda side: side.value)
+def test_crossing_moves_to_the_side_of_the_next_lane(
+    direction: Direction, side: Side, drawn: SimpleNamespace
+) -> None:
+    task = Task(drawn.crop, drawn.task.cameras, side, 2)
+    memory, situation = lane(drawn), drawn.situation()
+    assert memory.switch and memory.trailing
+    memory.switch.crossing = begin(
+        memory.trailing.rows, task.outward(direction.trailing), drawn.crop, drawn.camera
+    )
+    crossing = CrossingRows(task, direction, memory)
+
+    step = crossing.step(
+        situation.seen({direction.trailing: drawn.picture(drawn.crop, drawn.rows(drawn.crop))})
+    )
+
+    twist = step.motion.twist
+    assert (twist.vx_mps, twist.vy_mps) == (0.0, side.sign * drawn.crop.speeds.sidestep_mps)
+    assert step.motion.steering is Steering.OMNIDIRECTIONAL and not step.motion.hold
+    assert judged(step, "new rows passed") == 0
+
+
+def test_checking_is_ready_when_both_cameras_and_the_modules_are(drawn: SimpleNamespace) -> None:
+    situation = drawn.situation()
+    checking = Checking(drawn.task)
+    image = drawn.picture(drawn.crop, drawn.rows(drawn.crop))
+
+    assert checking.step(situation.seen({CameraName.FRONT: image})).event is None
+    situation.ready = False
+    assert checking.step(situation.seen({CameraName.REAR: image})).event is None
+    situation.ready = True
+    assert checking.step(situation.seen()).event is Event.READY
+
+
+def test_checking_refuses_a_camera_of_the_wrong_size(drawn: SimpleNamespace) -> None:
+    situation = drawn.situation()
+    image = np.zeros((480, 640, 3), np.uint8)
+
+    step = Checking(drawn.task).step(situation.seen({CameraName.REAR: image}))
+
+    assert step.event is Event.FAIL
+    assert step.reason == "rear camera gives 640x480, its file says 640x360"
+
+
+def test_checking_gives_up_on_cameras_that_stay_dark(drawn: SimpleNamespace) -> None:
+    situation = drawn.situation()
+    checking = Checking(drawn.task)
+    checking.step(situation.seen())
+
+    step = checking.step(situation.seen(dt_s=CHECK_S + 0.1))
+
+    assert step.event is Event.FAIL and "do not come up" in step.reason
+    assert judged(step, "cameras that give frames") == 0
+
+
+def test_a_new_lane_begins_with_a_fresh_memory(drawn: SimpleNamespace) -> None:
+    behaviours = Behaviours(drawn.task)
+    behaviours.lane = lane(drawn)
+    behaviours.lane.counts[3] += 5
+    behaviours.lane.under_way = True
+    settling = (Direction.FORWARD, Phase.SIDESTEP, Sidestep.SETTLING)
+    acquiring = (Direction.BACKWARD, Phase.FOLLOW, Follow.ACQUIRING)
+
+    behaviours.enter(Change(settling, Event.LANE_CENTRED, acquiring))
+
+    assert behaviours.lane == LaneMemory(number=2)
+    assert isinstance(behaviours.current, Acquiring)
+
+
+def test_within_a_lane_the_memory_stays(drawn: SimpleNamespace) -> None:
+    behaviours = Behaviours(drawn.task)
+    before = behaviours.lane
+    acquiring, tracking = (
+        (Direction.FORWARD, Phase.FOLLOW, leaf) for leaf in (Follow.ACQUIRING, Follow.TRACKING)
+    )
+
+    behaviours.enter(Change(acquiring, Event.ROWS_FOUND, tracking))
+
+    assert behaviours.lane is before
+    assert isinstance(behaviours.current, Tracking)
+
+
+@LEAVES
+def test_every_moving_state_has_a_behaviour_that_asks_for_the_cameras_it_goes_by(
+    leaf: tuple[Direction, ...], drawn: SimpleNamespace
+) -> None:
+    behaviours = Behaviours(drawn.task)
+    behaviours.enter(Change(leaf, Event.RESUME, leaf))
+
+    direction, cameras = leaf[0], behaviours.current.cameras
+    wanted = {
+        Phase.FOLLOW: {direction.leading},
+        Phase.EXIT: set(CameraName),
+        Phase.SIDESTEP: {direction.trailing},
+    }
+    assert set(cameras) <= wanted[leaf[1]]  # type: ignore[index]
+    assert cameras or leaf[-1] is Sidestep.ORIENTING
+
+
+@DIRECTIONS
+def test_a_frame_of_the_camera_that_does_not_guide_decides_nothing(
+    direction: Direction, drawn: SimpleNamespace
+) -> None:
+    situation = drawn.situation()
+    image = drawn.picture(drawn.crop, drawn.rows(drawn.crop))
+    other: dict[CameraName, Frame] = {direction.trailing: image}
+    acquiring = Acquiring(drawn.task, direction, LaneMemory(number=1))
+
+    steps = [acquiring.step(situation.seen(other)) for _ in range(10)]
+
+    assert {step.event for step in steps} == {None}
+    assert {step.motion.twist.vx_mps for step in steps} == {0.0}
