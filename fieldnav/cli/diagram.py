@@ -15,6 +15,6 @@ def diagram(
     format: Annotated[Format, typer.Option(help="Mermaid text, or a picture as SVG.")] = Format.MERMAID,
 ) -> None:
     """Print the state machine's diagram, generated from the table that the machine runs on."""
-    from states import diagram as drawing  # noqa: PLC0415 - other commands need not wait for the state machine
+    from states.diagram import mermaid, svg  # noqa: PLC0415 - other commands need not wait for the states
 
-    print(drawing.mermaid() if format is Format.MERMAID else drawing.svg())
+    print(mermaid() if format is Format.MERMAID else svg())
