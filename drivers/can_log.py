@@ -6,7 +6,7 @@ from pathlib import Path
 import can
 from can.interfaces.virtual import VirtualBus
 
-from fieldnav.errors import DriverError
+from fieldnav.errors import DriverError, OutputError
 from fieldnav.settings.robot import Bus
 
 VIRTUAL = "virtual"
@@ -44,37 +44,73 @@ class LoggedBus(can.BusABC):
 
     The log is candump's format, which python-can, can-utils, SavvyCAN and cantools read: T was sent by the
     host, R was received. `channel` is the name it gives the bus. Closes the bus below and the file.
+
+    The log never decides whether a frame passes: once it cannot be written it is given up, `failure` says
+    why, and the bus goes on. Raises OutputError, with the bus below closed, when it cannot even be begun.
     """
 
     def __init__(self, bus: can.BusABC, path: Path, channel: str) -> None:
         super().__init__(channel=channel)
         self.channel_info = f"{bus.channel_info}, logged"
+        self.failure: str | None = None
         self._bus = bus
+        self._name = path.name
         self._channel = channel
-        self._log = can.CanutilsLogWriter(path, channel=channel)
         self._flushed_s: float | None = None
+        self._log: can.CanutilsLogWriter | None = None
+        try:
+            self._log = can.CanutilsLogWriter(path, channel=channel)
+        except OSError as error:
+            self.shutdown()
+            raise OutputError(f"{path}: cannot be written: {error.strerror or error}") from error
 
     def send(self, msg: can.Message, timeout: float | None = None) -> None:
         """Send, then note; a frame that the bus refuses is not in the log."""
         self._bus.send(msg, timeout)
         msg.is_rx = False
-        self._note(msg)
+        self._keep(msg)
 
     def recv(self, timeout: float | None = None) -> can.Message | None:
         msg = self._bus.recv(timeout)
         if msg is not None:
-            self._note(msg)
+            self._keep(msg)
         return msg
 
     def shutdown(self) -> None:
         """Close the bus below and the log; may be repeated."""
         super().shutdown()
-        self._bus.shutdown()
-        self._log.stop()
+        try:
+            self._bus.shutdown()
+        finally:
+            self._close_log()
 
-    def _note(self, msg: can.Message) -> None:
+    def _keep(self, msg: can.Message) -> None:
+        """Note a frame, as long as there is a log to note it in."""
+        if self._log is None:
+            return
+        try:
+            self._note(msg, self._log)
+        except OSError as error:
+            self._give_up(error)
+            self._close_log()
+
+    def _note(self, msg: can.Message, log: can.CanutilsLogWriter) -> None:
         msg.channel = self._channel
-        self._log.on_message_received(msg)
+        log.on_message_received(msg)
         if self._flushed_s is None or not 0 <= msg.timestamp - self._flushed_s < FLUSH_S:
-            self._log.file.flush()
+            log.file.flush()
             self._flushed_s = msg.timestamp
+
+    def _close_log(self) -> None:
+        """Close the file; it counts as closed also when its last lines find no room."""
+        log, self._log = self._log, None
+        if log is None:
+            return
+        try:
+            log.stop()
+        except OSError as error:
+            self._give_up(error)
+
+    def _give_up(self, error: OSError) -> None:
+        if self.failure is None:  # what follows the first failure says nothing new
+            self.failure = f"{self._name} cannot be written: {error.strerror or error}"

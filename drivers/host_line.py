@@ -10,6 +10,9 @@ from drivers.wire_layout import NO_NODE, Telegram, wire_layout
 from fieldnav.errors import DriverError
 from fieldnav.settings.robot import Module
 
+BUS_ERRORS = (can.CanError, OSError)
+"""What a bus raises that is gone or full: python-can's own errors, and those that backends let through."""
+
 LAST_SEQUENCE = 2**31 - 1
 """RPDO1 counts in a signed 32 bit number; after the last comes 0."""
 
@@ -21,11 +24,6 @@ class HostLine:
         self._bus = bus
         self._layout = wire_layout()
         self.sequence = 0
-
-    @property
-    def nodes(self) -> frozenset[int]:
-        """The node ids that the wire layout has."""
-        return self._layout.nodes
 
     def received(self) -> Iterator[Telegram]:
         """All telegrams that wait on the bus, without waiting; frames of another layout are left out."""
@@ -74,11 +72,11 @@ class HostLine:
     def _send(self, now_s: float, node: int, kind: Kind, **values: float) -> None:
         try:
             self._bus.send(self._layout.frame(now_s, node, kind, values))
-        except can.CanError as error:
+        except BUS_ERRORS as error:
             raise DriverError(f"CAN bus cannot be written: {error}") from error
 
     def _next_frame(self) -> can.Message | None:
         try:
             return self._bus.recv(timeout=0)
-        except can.CanError as error:
+        except BUS_ERRORS as error:
             raise DriverError(f"CAN bus cannot be read: {error}") from error

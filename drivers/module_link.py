@@ -6,7 +6,6 @@ from enum import Enum
 from drivers.module_units import speed_from_rpm, steering_from_counts
 from drivers.thorvald_protocol import (
     FLAG_SIGNALS,
-    FaultFlag,
     IdentityPart,
     Kind,
     ModuleFlag,
@@ -14,7 +13,6 @@ from drivers.thorvald_protocol import (
     RoboteqObject,
     SdoCommand,
     flag_faults,
-    words,
 )
 from drivers.wire_layout import Telegram
 from fieldnav.messages import ModuleReport, Wheel
@@ -28,9 +26,6 @@ READ_REPLIES = frozenset(
         SdoCommand.READ_4_BYTES,
     }
 )
-
-ALL_FAULTS = 0xFF
-"""Object 2112 has eight flags."""
 
 NODE_STATES = {state.value: state for state in NodeState}
 
@@ -72,7 +67,7 @@ class ModuleLink:
         self.state: NodeState | None = None
         self.steering_rad: float | None = None
         self._moved_s: float | None = None
-        self._constants: Mapping[str, float] | None = None
+        self.constants: Mapping[str, float] | None = None
         self.fault_flags: int | None = None
 
     @property
@@ -84,7 +79,7 @@ class ModuleLink:
         """The first thing that is still to be heard; None once the module may move."""
         if self.state is not NodeState.OPERATIONAL:
             return Missing.STATE
-        if self._constants is None:
+        if self.constants is None:
             return Missing.CONSTANTS
         if self.fault_flags is None:
             return Missing.FAULTS
@@ -117,7 +112,7 @@ class ModuleLink:
             case Kind.HEARTBEAT:
                 self._take_state(int(values["State"]))
             case Kind.IDENTITY if values["Part"] == IdentityPart.CONSTANTS:
-                self._constants = values
+                self.constants = values
             case Kind.IDENTITY:
                 self.version = tuple(int(values[f"Version{part}"]) for part in ("Major", "Minor", "Patch"))  # type: ignore[assignment]
             case Kind.SDO_REPLY:
@@ -130,21 +125,6 @@ class ModuleLink:
             case _:
                 return
         self.heard_s = now_s
-
-    @property
-    def objection(self) -> str | None:
-        """What about the module is not well or not as in the robot file, with both values; else None."""
-        if self._constants is not None:
-            wanted = {"DriveDirection": self.module.drive_direction, "HomeCount": self.module.home_count}
-            for quantity, expected in wanted.items():
-                found = round(self._constants[quantity])
-                if found != expected:
-                    return (
-                        f"{self.name}: {quantity} is {found} in the module but {expected} in the robot file"
-                    )
-        if self.fault_flags:
-            return f"{self.name} reports faults: {words(FaultFlag(self.fault_flags & ALL_FAULTS))}"
-        return None
 
     def _take_health(self, values: Mapping[str, float]) -> None:
         self._flags = sum(bit for bit, signal in FLAG_SIGNALS.items() if values[signal])

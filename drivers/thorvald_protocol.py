@@ -64,7 +64,6 @@ class RoboteqObject(IntEnum):
 
     EMERGENCY_STOP = 0x200C
     EMERGENCY_STOP_RELEASE = 0x200D
-    STATUS_FLAGS = 0x2111
     FAULT_FLAGS = 0x2112
 
 

@@ -11,6 +11,8 @@ import cantools
 from cantools.database.can import Database, Message
 
 from drivers.thorvald_protocol import Kind
+from fieldnav.errors import SettingsError
+from fieldnav.settings.robot import Robot
 
 NO_NODE = 0
 """Node of the telegrams that belong to no module."""
@@ -56,11 +58,6 @@ class WireLayout:
         """The node ids that the file describes."""
         return frozenset(node for node, _ in self._by_role if node != NO_NODE)
 
-    @property
-    def frame_ids(self) -> frozenset[int]:
-        """The ids of all frames that the file describes."""
-        return frozenset(self._by_frame_id)
-
     def frame(self, stamp_s: float, node: int, kind: Kind, values: Mapping[str, float]) -> can.Message:
         """A frame that says this; bytes without a signal are zero. Raises KeyError for an unknown node."""
         message = self._by_role[node, kind]
@@ -91,6 +88,17 @@ def wire_layout() -> WireLayout:
     """The layout from the shipped file; loaded once."""
     text = files("config").joinpath("thorvald.dbc").read_text(encoding="ascii")
     return WireLayout(cantools.database.load_string(text, "dbc"))  # type: ignore[arg-type]
+
+
+def check_nodes(robot: Robot) -> None:
+    """Raise SettingsError for a wheel module whose node id the shipped layout lacks; touches no bus."""
+    nodes = wire_layout().nodes
+    for wheel, module in robot.modules.items():
+        if module.node_id not in nodes:
+            raise SettingsError(
+                f"robot {robot.name}: modules.{wheel.value}.node_id: {module.node_id}; "
+                f"allowed is one of {', '.join(map(str, sorted(nodes)))}, the nodes of thorvald.dbc"
+            )
 
 
 def _role(name: str) -> tuple[int, Kind]:

@@ -88,6 +88,12 @@ class Exiting:
             return Step(Motion(), Event.FAIL, evidence, sight, "crop behind does not end")
         if not (ended and driven_m > whole_m / 2):
             return Step(self._ahead(turn_rps, speed_mps), None, evidence, sight)
+        entered_m = self._lane.entered_m
+        if entered_m is not None:
+            evidence = (
+                *evidence,
+                Evidence("driven in this lane", abs(seen.forward_m - entered_m), None, "m"),
+            )
         last = self._lane.number >= self._task.lanes
         return Step(Motion(), Event.LAST_LANE_LEFT if last else Event.LANE_LEFT, evidence, sight)
 

@@ -7,6 +7,9 @@ from fieldnav.perception.crossing import Crossing
 from fieldnav.perception.recognition import Descriptors
 from fieldnav.perception.tracking import TrackedRows
 
+OFTEN = 0.1
+"""Share of a lane's frames: gaps hide a row in most of them at times, but not in nine of ten."""
+
 
 @dataclass(slots=True)
 class SwitchMemory:
@@ -23,6 +26,7 @@ class LaneMemory:
 
     number: int
     under_way: bool = False
+    entered_m: float | None = None
     leading: TrackedRows | None = None
     trailing: TrackedRows | None = None
     counts: Counter[int] = field(default_factory=Counter)
@@ -35,5 +39,6 @@ class LaneMemory:
 
     @property
     def rows(self) -> int:
-        """C, the number of rows under the robot: this lane's most frequent count; 0 before any was seen."""
-        return self.counts.most_common(1)[0][0] if self.counts else 0
+        """C, the number of rows under the robot: the most that were seen together often; 0 before any was."""
+        often = OFTEN * self.counts.total()
+        return max((rows for rows, frames in self.counts.items() if frames >= often), default=0)

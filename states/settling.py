@@ -14,6 +14,8 @@ OFFSET_GAIN_PER_S = 0.8
 HEADING_GAIN_PER_S = 0.5
 MOST_TURN_RPS = 0.05
 FRAMES_CENTRED = 5
+LONGEST_S = 40.0
+"""Half a metre at a crawl, and to wait for five good frames in a row."""
 
 
 class Settling:
@@ -23,6 +25,7 @@ class Settling:
         self.cameras: tuple[CameraName, ...] = (direction.trailing,)
         self._task, self._direction, self._lane = task, direction, lane
         self._centred = 0
+        self._entered_s: float | None = None
         self._step = Step(sideways(task, task.crop.speeds.sidestep_mps))
 
     def step(self, seen: Observation) -> Step:
@@ -31,6 +34,12 @@ class Settling:
         assert switch, "Orienting begins the switch"
         moved_m = abs(seen.sideways_m - switch.started_m)
         limit_m = self._task.crop.switching.longest_sidestep_m
+        if self._entered_s is None:
+            self._entered_s = seen.now_s
+        taken_s = seen.now_s - self._entered_s
+        if taken_s > LONGEST_S:
+            evidence = (Evidence("settling takes", taken_s, LONGEST_S, "s"),)
+            return Step(Motion(), Event.FAIL, evidence, reason="the new lane could not be centred in time")
         if moved_m > limit_m:
             evidence = (Evidence("moved sideways", moved_m, limit_m, "m"),)
             return Step(

@@ -52,7 +52,7 @@ class Tracking:
             Evidence("feature angle", degrees(line.theta_rad), None, "deg"),
         )
         sight = Sight(frame, rows.rows, centres, line)
-        self._lane.counts[len(rows.rows)] += 1
+        self._lane.counts[rows.rows_seen] += 1
         event = None
         if ended:
             event = Event.LANE_ENDED

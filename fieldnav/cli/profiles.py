@@ -1,7 +1,6 @@
 """`fieldnav profiles`: what crops, robots and fields there are, what is in them, whether a file is right."""
 
 from enum import Enum
-from pathlib import Path
 from typing import Annotated
 
 import typer
@@ -101,5 +100,5 @@ def _kinds_of(name: str, choice: Choice | None) -> list[Kind]:
     if choice:
         return [choice.kind]
     if is_path(name):
-        return [kind_of_document(parse_mapping(read_text(Path(name)), name))]
+        return [kind_of_document(parse_mapping(read_text(name), name))]
     return kinds_named(name)

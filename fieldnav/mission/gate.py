@@ -2,17 +2,21 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from math import cos, inf, isfinite, pi, radians
+from math import cos, inf, pi, radians
 
 from drivers.ports import Wheels
-from drivers.thorvald_protocol import flag_faults
 from fieldnav.control.kinematics import wheel_setpoints
 from fieldnav.control.limits import limit
 from fieldnav.messages import STANDSTILL, Motion, Steering, Twist, Wheel, WheelReport, WheelSetpoint
+from fieldnav.mission.refusal import refusal
 from fieldnav.settings.robot import Robot
 
-STANDING_MPS = 0.02
-"""A reported rim speed below this counts as standing when the steering mode changes; our choice."""
+MODE_CHANGE_RIM_MPS = 0.02
+"""Every wheel must report a rim speed below this, in m/s, before the steering mode may change.
+
+Our choice: forty of the 0.5 mm/s steps in which TPDO1 tells it (one motor rpm), and less than half a
+millimetre of rim in a tick of 20 ms.
+"""
 
 LONGEST_STEP_S = 0.1
 """A late tick may not make up for the time it lost: five ticks of 20 ms; our choice."""
@@ -59,39 +63,12 @@ class Gate:
         dt_s = 0.0 if self._passed_s is None else min(max(now_s - self._passed_s, 0.0), LONGEST_STEP_S)
         self._passed_s = now_s
         present = {wheel: module.steering_rad for wheel, module in report.modules.items()}
-        reason = self._refusal(now_s, motion.twist, frame_age_s, report) if moving else None
+        reason = refusal(now_s, motion.twist, frame_age_s, report, self._timeouts) if moving else None
         if reason is not None:
             return self._halt(now_s, present, reason)
         if not moving:
             return self._rest(now_s, dt_s, present)
         return self._drive(now_s, dt_s, motion, present, report)
-
-    def _refusal(
-        self, now_s: float, twist: Twist, frame_age_s: float | None, report: WheelReport
-    ) -> str | None:
-        """Why nothing may move, in words; None when all is well."""
-        if not all(map(isfinite, (twist.vx_mps, twist.vy_mps, twist.yaw_rate_rps))):
-            return f"the wanted twist is not finite: {twist}"
-        limit_s = self._timeouts.frame_s
-        if frame_age_s is None:
-            return f"no frame has come yet, limit {limit_s:.2f} s"
-        if not frame_age_s <= limit_s:
-            return f"newest frame is {frame_age_s:.2f} s old, limit {limit_s:.2f} s"
-        return self._module_refusal(now_s, report)
-
-    def _module_refusal(self, now_s: float, report: WheelReport) -> str | None:
-        limit_s = self._timeouts.module_s
-        for wheel in Wheel:
-            module = report.modules.get(wheel)
-            if module is None:
-                return f"module {wheel.value} has not reported"
-            age_s = now_s - module.stamp_s
-            if age_s > limit_s:
-                return f"module {wheel.value} last reported {age_s:.2f} s ago, limit {limit_s:.2f} s"
-            if not module.healthy:
-                faults = flag_faults(module.flags) or "emergency telegram"
-                return f"module {wheel.value} is not healthy: {faults}"
-        return None
 
     def _halt(self, now_s: float, present: Mapping[Wheel, float], reason: str) -> Passed:
         """Zero at once; the modules' own ramp makes it smooth."""
@@ -131,7 +108,7 @@ class Gate:
 
     def _stands(self, report: WheelReport) -> bool:
         return self._twist == STANDSTILL and all(
-            abs(module.speed_mps) < STANDING_MPS for module in report.modules.values()
+            abs(module.speed_mps) < MODE_CHANGE_RIM_MPS for module in report.modules.values()
         )
 
     def _wheels_for(self, motion: Motion, present: Mapping[Wheel, float]) -> dict[Wheel, WheelSetpoint]:

@@ -1,30 +1,29 @@
 """The loop: frame to perception to state to gate, once a tick; the only place that fires the machine."""
 
 from collections.abc import Iterable, Mapping
-from math import hypot
 
 from drivers.ports import Camera, Wheels
-from fieldnav.control.kinematics import body_twist
-from fieldnav.errors import DriverError
+from fieldnav.errors import DriverError, FieldnavError
 from fieldnav.journal.entry import Entry
 from fieldnav.journal.journal import Journal
-from fieldnav.messages import CameraName, Frame, Motion, Twist, WheelReport, WheelSetpoint
+from fieldnav.messages import STANDSTILL, CameraName, Frame, Motion, WheelReport
+from fieldnav.mission.eyes import Eyes
 from fieldnav.mission.gate import Gate, Passed
+from fieldnav.mission.progress import Progress
 from fieldnav.mission.tick import Observer, Tick
+from fieldnav.mission.travel import Travel
 from fieldnav.settings.robot import Robot
 from states.behaviour import Observation, Step, Task
 from states.behaviours import Behaviours
 from states.machine import Change, MissionMachine
-from states.names import Event, text
+from states.names import Event, Path, text
 from states.table import FINISHED, LANE_LEAVES, LATCHED, RECOVERABLE
 
 TICK_S = 0.02
 """50 Hz, the rate of the wheel commands."""
-REFUSED_LIMIT_S = 2.0
-"""The gate may refuse to move for so long before it counts as a fault."""
-STANDING = Passed(Motion(), {})
-STANDING_MPS = 0.01
-STANDING_RPS = 0.01
+REST_S = 2.0
+"""So long after its end a mission waits for the wheels to say that they stand; longer than any ramp."""
+NOTHING_SENT = Passed(Motion(), {})
 
 
 class Mission:
@@ -39,141 +38,136 @@ class Mission:
         journal: Journal,
         observers: Iterable[Observer] = (),
     ) -> None:
-        self._robot, self._cameras, self._wheels, self._journal = robot, cameras, wheels, journal
-        self._observers = tuple(observers)
-        self._gate = Gate(wheels, robot)
+        self._wheels, self._journal = wheels, journal
+        self._observers = list(observers)
+        self._gate, self._travel, self._progress = Gate(wheels, robot), Travel(robot), Progress()
+        self._eyes = Eyes(cameras, robot.timeouts.frame_s)
         self.machine = MissionMachine()
         self.behaviours = Behaviours(task)
-        self._seen: dict[CameraName, Frame] = {}
-        self._ticked_s: float | None = None
-        self._twist = Twist()
-        self._refused_since_s: float | None = None
         self._report = WheelReport()
-        self._forward_m = self._sideways_m = 0.0
+        self._held_in: Path | None = None
+        self._ended_s: float | None = None
+        self._now_s = 0.0
 
     @property
     def over(self) -> bool:
-        """Whether nothing more happens without a person, and the robot stands."""
-        return self.machine.leaf in (FINISHED, RECOVERABLE, LATCHED) and self._standing
+        """Whether nothing more happens without a person: the wheels say they stand, or have had time to."""
+        if self._ended_s is None:
+            return False
+        return self._travel.standing or self._now_s - self._ended_s > REST_S
 
     def start(self, now_s: float) -> None:
         """Bring the wheels up and begin with the checks."""
         self._wheels.start(now_s)
-        self._go(now_s, Event.START, Step())
+        self._tell(now_s, self._go(now_s, Step(event=Event.START)), Step(), NOTHING_SENT)
 
     def tick(self, now_s: float) -> None:
-        """One round of the loop; times must rise."""
+        """One round of the loop; times must rise. Whatever goes wrong, the wheels are stopped first.
+
+        Raises FieldnavError for what is not the robot's fault: a full disk, an error in the program.
+        """
+        self._now_s = now_s
         try:
-            self._report = self._wheels.poll(now_s)
-            frames = self._look(now_s)
+            self._round(now_s)
         except DriverError as error:
-            change = self._fail(now_s, Event.LATCH, str(error))
-            self._wheels.stop(now_s)
-            self._report, self._twist = WheelReport(), Twist()  # what the wheels do is no longer known
-            self._tell(now_s, change, Step(reason=str(error)), STANDING)
-            return
-        self._measure(now_s)
+            self.break_off(now_s, Event.LATCH, str(error))
+        except FieldnavError as error:
+            self.break_off(now_s, Event.LATCH, str(error))
+            raise
+        except Exception as error:
+            reason = f"{type(error).__name__}: {error}"
+            self.break_off(now_s, Event.LATCH, reason)
+            raise FieldnavError(f"the mission broke off: {reason}") from error
+
+    def break_off(self, now_s: float, event: Event, reason: str) -> None:
+        """Stop the wheels, then go to a fault state and say why."""
+        self._wheels.stop(now_s)
+        self._report = WheelReport()  # what the wheels do is no longer known
+        self._travel.measure(now_s, self._report)
+        step = Step(event=event, reason=reason)
+        change = self._go(now_s, step) if self.machine.may(event) else None
+        self._tell(now_s, change, step, NOTHING_SENT)
+
+    def _round(self, now_s: float) -> None:
+        self._report = self._wheels.poll(now_s)
+        self._travel.measure(now_s, self._report)
         guides = self.behaviours.current.cameras
+        frames = self._eyes.look(now_s, guides)
         step = self.behaviours.current.step(self._observe(now_s, frames))
-        change = None
-        if step.event is not None:
-            change = self._go(now_s, step.event, step)
+        change = self._go(now_s, step) if step.event is not None else None
         moving = self.machine.leaf in LANE_LEAVES
         motion = step.motion if moving else Motion()
-        passed = self._gate.pass_on(now_s, motion, moving, self._age_s(now_s, guides), self._report)
-        if self._refused_too_long(now_s, passed) and change is None:
-            change = self._fail(now_s, Event.FAIL, f"the gate does not let the wheels move: {passed.reason}")
+        passed = self._gate.pass_on(now_s, motion, moving, self._eyes.age_s(now_s, guides), self._report)
+        self._note_held(now_s, passed)
+        complaint = self._progress.complaint(now_s, passed, self._travel.standing)
+        if complaint and change is None and moving:
+            change = self._go(now_s, Step(event=Event.FAIL, reason=complaint))
         self._tell(now_s, change, step, passed)
-
-    def _look(self, now_s: float) -> dict[CameraName, Frame]:
-        """The frames, of those cameras that guide, that are new since the last tick."""
-        fresh = {}
-        for name in self.behaviours.current.cameras:
-            frame = self._cameras[name].latest(now_s)
-            if frame is not None and frame is not self._seen.get(name):
-                self._seen[name] = fresh[name] = frame
-        return fresh
-
-    def _measure(self, now_s: float) -> None:
-        """Add up what the wheels say they have travelled."""
-        modules = self._report.modules
-        states = {wheel: WheelSetpoint(said.speed_mps, said.steering_rad) for wheel, said in modules.items()}
-        if len(states) == len(self._robot.modules):
-            self._twist = body_twist(states, self._robot.geometry)
-        dt_s = 0.0 if self._ticked_s is None else now_s - self._ticked_s
-        self._ticked_s = now_s
-        self._forward_m += self._twist.vx_mps * dt_s
-        self._sideways_m += self._twist.vy_mps * dt_s
 
     def _observe(self, now_s: float, frames: Mapping[CameraName, Frame]) -> Observation:
         return Observation(
             now_s=now_s,
             frames=frames,
-            forward_m=self._forward_m,
-            sideways_m=self._sideways_m,
-            stopped=self._standing,
+            forward_m=self._travel.forward_m,
+            sideways_m=self._travel.sideways_m,
+            stopped=self._travel.standing,
             wheels_aligned=self._gate.aligned,
             wheels_ready=self._wheels.ready,
         )
 
-    @property
-    def _standing(self) -> bool:
-        speed_mps = hypot(self._twist.vx_mps, self._twist.vy_mps)
-        return speed_mps < STANDING_MPS and abs(self._twist.yaw_rate_rps) < STANDING_RPS
-
-    def _age_s(self, now_s: float, guides: Iterable[CameraName]) -> float | None:
-        """Age of the oldest of the newest frames that guide; 0 where none does, None before the first."""
-        stamps = [self._seen[name].stamp_s if name in self._seen else None for name in guides]
-        known = [stamp_s for stamp_s in stamps if stamp_s is not None]
-        return None if len(known) < len(stamps) else now_s - min(known, default=now_s)
-
-    def _refused_too_long(self, now_s: float, passed: Passed) -> bool:
-        if passed.reason is None:
-            self._refused_since_s = None
-            return False
-        if self._refused_since_s is None:
-            self._refused_since_s = now_s
-        return now_s - self._refused_since_s > REFUSED_LIMIT_S and self.machine.may(Event.FAIL)
-
-    def _fail(self, now_s: float, event: Event, reason: str) -> Change | None:
-        """Go to a fault state, unless a fault is what the mission is in already."""
-        if self.machine.leaf == LATCHED or not self.machine.may(event):
-            return None
-        return self._go(now_s, event, Step(event=event, reason=reason))
-
-    def _go(self, now_s: float, event: Event, step: Step) -> Change:
+    def _go(self, now_s: float, step: Step) -> Change:
         """Fire, write it down, take up the new state: the journal is on the disk before the wheels obey."""
-        change = self.machine.fire(event)
+        assert step.event is not None, "only an event changes the state"
+        change = self.machine.fire(step.event)
+        self._record(now_s, step.event.value, change.source, change.target, step)
+        self.behaviours.enter(change)
+        ended = change.target in (FINISHED, RECOVERABLE, LATCHED)
+        self._ended_s = now_s if ended else None
+        return change
+
+    def _note_held(self, now_s: float, passed: Passed) -> None:
+        """Write down, once a state, that the gate held the wheels although the state wanted to move."""
+        leaf = self.machine.leaf
+        if passed.reason is not None and self._held_in != leaf:
+            self._held_in = leaf
+            self._record(now_s, "held by the gate", leaf, leaf, Step(reason=passed.reason))
+
+    def _record(self, now_s: float, event: str, source: Path, target: Path, step: Step) -> None:
         lane = self.behaviours.lane
         entry = Entry(
             stamp_s=now_s,
-            event=event.value,
-            source=text(change.source),
-            target=text(change.target),
+            event=event,
+            source=text(source),
+            target=text(target),
             lane=lane.number,
             rows=lane.rows,
             evidence=step.evidence,
             frame=step.sight.frame if step.sight else None,
-            command=step.motion.twist if self.machine.leaf in LANE_LEAVES else Motion().twist,
+            command=step.motion.twist if target in LANE_LEAVES else STANDSTILL,
             reason=step.reason,
         )
         self._journal.record(entry)
-        self.behaviours.enter(change)
-        return change
 
     def _tell(self, now_s: float, change: Change | None, step: Step, passed: Passed) -> None:
         lane = self.behaviours.lane
         tick = Tick(
-            now_s,
-            self.machine.leaf,
-            change,
-            step,
-            passed,
-            lane.number,
-            lane.rows,
-            lane.rows_passed,
-            self._forward_m,
-            self._sideways_m,
+            now_s=now_s,
+            state=self.machine.leaf,
+            change=change,
+            step=step,
+            passed=passed,
+            lane=lane.number,
+            rows=lane.rows,
+            rows_passed=lane.rows_passed,
+            forward_m=self._travel.forward_m,
+            sideways_m=self._travel.sideways_m,
         )
-        for observer in self._observers:
-            observer.watch(tick)
+        for observer in tuple(self._observers):
+            try:
+                observer.watch(tick)
+            except Exception as error:  # who only watches may not stop the mission
+                self._observers.remove(observer)
+                reason = f"{type(observer).__name__} watches no longer: {type(error).__name__}: {error}"
+                self._record(
+                    now_s, "observer lost", self.machine.leaf, self.machine.leaf, Step(reason=reason)
+                )

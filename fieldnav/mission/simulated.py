@@ -2,7 +2,7 @@
 
 import time
 from collections.abc import Callable, Sequence
-from contextlib import ExitStack
+from contextlib import ExitStack, suppress
 from dataclasses import dataclass
 from datetime import UTC, datetime
 from pathlib import Path
@@ -12,7 +12,7 @@ import cv2
 from drivers.can_log import LoggedBus, open_virtual_pair
 from drivers.simulated_modules import SimulatedModules
 from drivers.thorvald import ThorvaldWheels
-from fieldnav.errors import FieldnavError
+from fieldnav.errors import DriverError
 from fieldnav.evaluation.path import PathObserver
 from fieldnav.evaluation.truth import headland, judge
 from fieldnav.journal.directory import RunDirectory
@@ -33,12 +33,15 @@ from fieldnav.simulation.plan import sow
 from fieldnav.simulation.renderer import FieldRenderer
 from fieldnav.simulation.world import World, module_errors
 from states.behaviour import Task
+from states.names import Event
 
 EPOCH = datetime(2000, 1, 1, tzinfo=UTC)
 """Where simulated time begins, so that a journal depends on the seed alone."""
-SLOWEST_MPS = 0.1
+REST_S = 1.0
+"""Longer than the ramp from top speed and the modules' watchdog."""
+SLOWEST = 0.2
 SWITCH_S = 120.0
-"""A mission that takes longer than its length at this speed and this for each switch is stuck."""
+"""A mission that takes longer than at this share of its speed, and this for each switch, is stuck."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -90,26 +93,40 @@ def simulate(run: Run, observers: Sequence[Observer] = ()) -> tuple[RunDirectory
         try:
             _drive(mission, world.advance, run, started)
         finally:
-            wheels.stop(world.now.stamp_s)
+            _come_to_rest(wheels, world)
             wall_s = time.perf_counter() - started
-            truth = judge(world, path, run.lanes)
-            summary = figures.summary(wall_s, headland(world, path), truth)
+            summary = figures.summary(wall_s, headland(world, path), judge(world, path, run.lanes))
             write_summary(directory.summary, summary)
-        draw_run(directory.map, plan, path, run.field.name, summary)
+            draw_run(directory.map, plan, path, run.field.name, summary)
     return directory, summary
+
+
+def _come_to_rest(wheels: ThorvaldWheels, world: World) -> None:
+    """Command zero until the modules have had time to stop, so that can.log shows it however a run ended."""
+    until_s = world.now.stamp_s + REST_S
+    while world.now.stamp_s < until_s:
+        wheels.stop(world.now.stamp_s)
+        world.advance(world.now.stamp_s + TICK_S)
+        with suppress(DriverError):
+            wheels.poll(world.now.stamp_s)
 
 
 def _drive(mission: Mission, advance: Callable[[float], None], run: Run, started: float) -> None:
     """Tick until the mission is over; in real time no faster than the clock."""
-    limit_s = run.lanes * (run.field.length_m / SLOWEST_MPS + SWITCH_S)
+    limit_s = run.lanes * (run.field.length_m / (SLOWEST * run.crop.speeds.follow_mps) + SWITCH_S)
     mission.start(0.0)
     ticks = 0
     while not mission.over:
-        ticks += 1
         now_s = ticks * TICK_S
+        try:
+            ticks += 1
+            now_s = ticks * TICK_S
+            advance(now_s)
+            mission.tick(now_s)
+        except KeyboardInterrupt:
+            mission.break_off(now_s, Event.FAIL, "interrupted by the operator")
+            raise
         if now_s > limit_s:
-            raise FieldnavError(f"the mission has not ended within {limit_s:.0f} s of the robot's time")
-        advance(now_s)
-        mission.tick(now_s)
+            mission.break_off(now_s, Event.FAIL, f"not ended within {limit_s:.0f} s of the robot's time")
         if run.realtime:
             time.sleep(max(0.0, now_s - (time.perf_counter() - started)))

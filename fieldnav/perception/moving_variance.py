@@ -71,11 +71,12 @@ def rows_of(structure: FieldStructure, finding: Finding, camera: Pinhole) -> tup
 def _moving_variance(angle: Floats, neighbours: int) -> Floats:
     """Variance of the angles within `neighbours` / 2 places on either side; NaN where there is no angle."""
     half = neighbours // 2
+    centred = slice(half, half + len(angle))  # of a full convolution, also where half is the longer
     known = np.isfinite(angle)
     values = np.where(known, angle, 0.0)
     window = np.ones(2 * half + 1)
-    count = np.convolve(known, window, mode="same").clip(1)
-    mean = np.convolve(values, window, mode="same") / count
+    count = np.convolve(known, window)[centred].clip(1)
+    mean = np.convolve(values, window)[centred] / count
     padded = np.pad(np.where(known, angle, np.nan), half, constant_values=np.nan)
     around = np.lib.stride_tricks.sliding_window_view(padded, 2 * half + 1)
     squares = np.where(np.isfinite(around), (around - mean[:, None]) ** 2, 0.0)

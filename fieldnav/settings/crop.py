@@ -90,7 +90,10 @@ class RowEnd(Settings):
         default=0.3, ge=0, le=10, description="crop in half a view, in whole plants, that is still a row"
     )
     longest_gap_m: float = Field(
-        default=2.0, ge=0, le=10, description="stretch without any plant that is no row end"
+        default=2.0,
+        ge=0,
+        le=10,
+        description="how far the robot coasts on without seeing the rows before it stops with a fault",
     )
 
 

@@ -1,8 +1,15 @@
-"""Whether a crop's rows fit a robot: under it, between its wheels, and beside its wheels in the next lane."""
+"""Whether a crop's rows fit a robot, under it and beside its wheels, and a field fits a computer."""
+
+from math import ceil
 
 from fieldnav.errors import SettingsError
 from fieldnav.settings.crop import CropProfile
-from fieldnav.settings.robot import Robot
+from fieldnav.settings.field import FieldSettings
+from fieldnav.settings.robot import Geometry, Robot
+
+MOST_PLANTS = 400_000
+"""Chosen: sown within seconds and held in less than 100 MB; the largest shipped field has a tenth of them."""
+CENTIMETRES = 100
 
 
 def outer_canopy_m(crop: CropProfile) -> float:
@@ -12,23 +19,49 @@ def outer_canopy_m(crop: CropProfile) -> float:
 
 def check_fit(crop: CropProfile, robot: Robot, lane_pitch_m: float | None = None) -> None:
     """Raise SettingsError when a wheel would run on the crop, in this lane or (given the pitch) the next."""
-    canopy_m = outer_canopy_m(crop)
-    inner_m = (robot.geometry.track_m - robot.geometry.wheel_width_m) / 2
+    canopy_m, geometry = outer_canopy_m(crop), robot.geometry
+    unfit = f"crop {crop.name} does not fit robot {robot.name}"
+    inner_m = (geometry.track_m - geometry.wheel_width_m) / 2
     if canopy_m > inner_m:
         raise SettingsError(
-            f"crop {crop.name} does not fit robot {robot.name}: rows.per_lane {crop.rows.per_lane} at "
-            f"rows.spacing_m {crop.rows.spacing_m:g} reach {canopy_m:.3f} m from the lane's centre; "
-            f"allowed is at most {inner_m:.3f} m, where the wheels begin"
+            f"{unfit}: the crop's {_pattern(crop)} reach {canopy_m:.3f} m from the lane's centre; allowed is "
+            f"at most {inner_m:.3f} m, where the wheels of the robot's {_stance(geometry)} begin"
         )
-    if crop.plants.canopy_height_m > robot.geometry.clearance_m:
+    if crop.plants.canopy_height_m > geometry.clearance_m:
         raise SettingsError(
-            f"crop {crop.name} does not fit robot {robot.name}: plants.canopy_height_m "
-            f"{crop.plants.canopy_height_m:g}; allowed is at most the clearance, "
-            f"{robot.geometry.clearance_m:g} m"
+            f"{unfit}: the crop's plants.canopy_height_m {crop.plants.canopy_height_m:g}; allowed is at most "
+            f"the robot's geometry.clearance_m {geometry.clearance_m:g}"
         )
-    outer_m = (robot.geometry.track_m + robot.geometry.wheel_width_m) / 2
+    outer_m = (geometry.track_m + geometry.wheel_width_m) / 2
     if lane_pitch_m is not None and lane_pitch_m - canopy_m < outer_m:
+        least_m = ceil((outer_m + canopy_m) * CENTIMETRES) / CENTIMETRES
         raise SettingsError(
-            f"lane_pitch_m {lane_pitch_m:g} is too small for crop {crop.name} and robot {robot.name}: "
-            f"the wheels would run on the next lane's rows; allowed is at least {outer_m + canopy_m:.2f}"
+            f"the field's lane_pitch_m {lane_pitch_m:g} is too small for crop {crop.name} with its "
+            f"{_pattern(crop)} and robot {robot.name} with its {_stance(geometry)}: the wheels would run on "
+            f"the next lane's rows; allowed is at least {least_m:g}"
         )
+
+
+def check_size(field: FieldSettings, crop: CropProfile) -> None:
+    """Raise SettingsError for a field of more plants, crop and weeds, than can be sown and drawn in time."""
+    rows = field.lanes * crop.rows.per_lane
+    plants = rows * (field.length_m / crop.plants.spacing_m + 1)
+    weeds = field.weeds.per_m2 * field.lanes * field.lane_pitch_m * field.length_m
+    if plants + weeds > MOST_PLANTS:
+        raise SettingsError(
+            f"field {field.name}: lanes {field.lanes} of length_m {field.length_m:g} hold about "
+            f"{plants + weeds:.0f} plants, {plants:.0f} of crop {crop.name} every plants.spacing_m "
+            f"{crop.plants.spacing_m:g} and {weeds:.0f} weeds at weeds.per_m2 {field.weeds.per_m2:g}; "
+            f"allowed is at most {MOST_PLANTS}"
+        )
+
+
+def _pattern(crop: CropProfile) -> str:
+    return (
+        f"rows.per_lane {crop.rows.per_lane} at rows.spacing_m {crop.rows.spacing_m:g} and "
+        f"plants.canopy_width_m {crop.plants.canopy_width_m:g}"
+    )
+
+
+def _stance(geometry: Geometry) -> str:
+    return f"geometry.track_m {geometry.track_m:g} and geometry.wheel_width_m {geometry.wheel_width_m:g}"

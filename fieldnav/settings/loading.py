@@ -5,6 +5,7 @@ file of the user's own.
 """
 
 import json
+import os
 from collections.abc import Hashable, Mapping
 from importlib.resources import files
 from pathlib import Path
@@ -16,13 +17,13 @@ from fieldnav.errors import SettingsError
 from fieldnav.settings.crop import CropProfile
 from fieldnav.settings.documents import parse_mapping, read_text
 from fieldnav.settings.field import FieldSettings
-from fieldnav.settings.fit import check_fit
+from fieldnav.settings.fit import check_fit, check_size
 from fieldnav.settings.kinds import Kind, is_path, names_of
 from fieldnav.settings.model import Settings
 from fieldnav.settings.problems import describe, nearest
 from fieldnav.settings.robot import Robot
 
-__all__ = ["Kind", "check_fit", "load", "load_crop", "load_field", "load_robot", "names_of", "revised"]
+__all__ = ["Kind", "check_fit", "check_size", "load", "load_crop", "load_field", "load_robot", "names_of", "revised"]
 
 MOST_PROBLEMS = 3
 """Problems of one file that are reported at once; a line of more is not read."""
@@ -47,7 +48,9 @@ def load_field(name_or_path: str | Path) -> FieldSettings:
     """
     field = _load(Kind.FIELD, FieldSettings, name_or_path)
     if is_path(name_or_path) and is_path(field.crop):
-        field = field.model_copy(update={"crop": str(Path(name_or_path).parent / field.crop)})
+        folder = os.path.dirname(name_or_path) or "."
+        beside = os.path.join(folder, str(field.crop).removeprefix("./"))
+        field = field.model_copy(update={"crop": beside})
     try:
         load_crop(field.crop)
     except SettingsError as error:
@@ -71,26 +74,37 @@ def parse(model: type[Model], text: str, label: str) -> Model:
     return _checked(model, parse_mapping(text, label), label)
 
 
-def _checked(model: type[Model], document: Mapping[Any, Any], label: str) -> Model:
+def _checked(
+    model: type[Model], document: Mapping[Any, Any], label: str, called: Mapping[str, str] | None = None
+) -> Model:
     try:
         # Strict JSON rules refuse "yes" for a number and 2.5 for a count, but take enums and lists.
         return model.model_validate_json(json.dumps(_plain(document)), strict=True)
     except ValidationError as error:
-        lines = describe(error, model)
+        lines = describe(error, model, called or {})
         rest = f"; and {len(lines) - MOST_PROBLEMS} more" if len(lines) > MOST_PROBLEMS else ""
-        raise SettingsError(f"{label}: {'; '.join(lines[:MOST_PROBLEMS])}{rest}") from error
+        said = "; ".join(lines[:MOST_PROBLEMS]) + rest
+        raise SettingsError(f"{label}: {said}" if label else said) from error
 
 
-def revised(settings: Model, changes: Mapping[str, Any], label: str = "options") -> Model:
-    """The same settings with some top-level values changed, checked like a file. Raises SettingsError."""
+def revised(
+    settings: Model,
+    changes: Mapping[str, Any],
+    label: str = "options",
+    called: Mapping[str, str] | None = None,
+) -> Model:
+    """The same settings with some top-level values changed, checked like a file. Raises SettingsError.
+
+    `called` has the name that a key goes by where the change came from, say an option's.
+    """
     document = settings.model_dump(mode="json") | dict(changes)
-    return _checked(type(settings), document, label)
+    return _checked(type(settings), document, label, called)
 
 
 def _load(kind: Kind, model: type[Model], name_or_path: str | Path) -> Model:
     label = _label(kind, name_or_path)
     if is_path(name_or_path):
-        return parse(model, read_text(Path(name_or_path)), label)
+        return parse(model, read_text(label), label)
     name = str(name_or_path)
     known = names_of(kind)
     if name not in known:

@@ -13,16 +13,26 @@ from pydantic_core import ErrorDetails
 LONGEST_VALUE = 40
 """Characters of a bad value that are quoted; the rest would bury the message."""
 
+BOUND_DIGITS = 12
+
+MOST_DESCRIBED = 50
+"""Problems of one file that are looked at; finding what was meant takes time for each."""
+
 _BOUNDS = {"ge": "at least", "gt": "more than", "le": "at most", "lt": "less than"}
 
 
-def describe(error: ValidationError, model: type[BaseModel]) -> list[str]:
-    """A line for each problem in `error`, misspelt keys first; no line is said twice."""
-    problems = error.errors()
+def describe(
+    error: ValidationError, model: type[BaseModel], called: Mapping[str, str] | None = None
+) -> list[str]:
+    """A line for each problem in `error`, misspelt keys first; no line is said twice.
+
+    `called` has other names for some of the keys.
+    """
+    problems = error.errors()[:MOST_DESCRIBED]
     unknown = [problem for problem in problems if problem["type"] == "extra_forbidden"]
     meant = {(*problem["loc"][:-1], _meant(problem, model)) for problem in unknown}
     rest = [problem for problem in problems if problem not in unknown and problem["loc"] not in meant]
-    return list(dict.fromkeys(_line(problem, model) for problem in [*unknown, *rest]))
+    return list(dict.fromkeys(_line(problem, model, called or {}) for problem in [*unknown, *rest]))
 
 
 def _meant(problem: ErrorDetails, model: type[BaseModel]) -> str:
@@ -32,9 +42,10 @@ def _meant(problem: ErrorDetails, model: type[BaseModel]) -> str:
     return close[0] if close else ""
 
 
-def _line(problem: ErrorDetails, model: type[BaseModel]) -> str:
+def _line(problem: ErrorDetails, model: type[BaseModel], called: Mapping[str, str]) -> str:
     location = [part for part in problem["loc"] if part != "[key]"]
-    key = ".".join(str(part) for part in location)
+    key = _shortened(".".join(str(part) for part in location))
+    key = called.get(key, key)
     found, owner = _find(model, location), _find(model, location[:-1])
     value = _quoted(problem["input"])
     if "[key]" in problem["loc"]:
@@ -46,7 +57,9 @@ def _line(problem: ErrorDetails, model: type[BaseModel]) -> str:
             return f"{key}: is missing; allowed is {_allowed(found)}"
         case "value_error" | "assertion_error":
             reason = str(problem.get("ctx", {}).get("error", problem["msg"]))
-            return f"{key}: {value}: {reason}" if key else reason
+            if _is_model(found.kind):  # the reason names what in the group does not go together
+                return f"{key}: {reason}" if key else reason
+            return f"{key}: {value}: {reason}"
     return f"{key}: {value} is not allowed; allowed is {_allowed(found)}"
 
 
@@ -124,8 +137,13 @@ def _limits(found: Found) -> list[str]:
         name: getattr(item, name) for item in found.constraints for name in _BOUNDS if hasattr(item, name)
     }
     if "ge" in values and "le" in values:
-        return [f"from {values['ge']:g} to {values['le']:g}"]
-    return [" and ".join(f"{_BOUNDS[name]} {value:g}" for name, value in values.items())] if values else []
+        return [f"from {_plain(values['ge'])} to {_plain(values['le'])}"]
+    return [" and ".join(f"{_BOUNDS[name]} {_plain(value)}" for name, value in values.items())] if values else []
+
+
+def _plain(bound: float) -> str:
+    """A bound in full: an address space's end in powers of ten helps nobody."""
+    return f"{bound:.{BOUND_DIGITS}g}"
 
 
 def _is_model(kind: Any) -> bool:
@@ -134,4 +152,8 @@ def _is_model(kind: Any) -> bool:
 
 def _quoted(value: object) -> str:
     text = f"'{value}'" if isinstance(value, str) else json.dumps(value, default=str)
+    return _shortened(text)
+
+
+def _shortened(text: str) -> str:
     return text if len(text) <= LONGEST_VALUE else f"{text[:LONGEST_VALUE]}..."

@@ -1,6 +1,6 @@
 """Robot file: geometry, wheel modules, cameras, bus, limits and timeouts of one machine."""
 
-from math import pi, radians, tan
+from math import atan, ceil, degrees, pi, radians, tan
 from typing import Literal, Self
 
 from pydantic import Field, model_validator
@@ -8,6 +8,11 @@ from pydantic import Field, model_validator
 from fieldnav.messages import CameraName, Wheel
 from fieldnav.pinhole import Pinhole
 from fieldnav.settings.model import FileName, Settings
+
+
+HORIZON_MARGIN_DEG = 5.0
+"""Chosen: the image's upper edge looks at least so far below the horizon, at ground within 11 camera heights."""
+STEEPEST_TILT_DEG = 90
 
 
 class Geometry(Settings):
@@ -57,15 +62,31 @@ class CameraSettings(Settings):
     rate_hz: float = Field(gt=0, le=240)
     horizontal_fov_deg: float = Field(ge=10, le=150)
     height_m: float = Field(ge=0.2, le=5)
-    tilt_deg: float = Field(ge=20, le=90, description="below the horizontal")
+    tilt_deg: float = Field(ge=20, le=STEEPEST_TILT_DEG, description="below the horizontal")
     distance_m: float = Field(
         ge=0, le=3, description="from the centre of rotation, in the direction the camera looks"
     )
 
+    @model_validator(mode="after")
+    def _sees_ground_alone(self) -> Self:
+        """The horizon is nowhere on the ground, and rows that reach up to it have no end."""
+        least_deg = HORIZON_MARGIN_DEG + degrees(atan(self.height_px / 2 / self._focal_px))
+        if self.tilt_deg < least_deg:
+            view = f"horizontal_fov_deg {self.horizontal_fov_deg:g} at {self.width_px}x{self.height_px} px"
+            allowed = f"at least {ceil(least_deg)}" if least_deg <= STEEPEST_TILT_DEG else "a less tall view"
+            raise ValueError(
+                f"tilt_deg {self.tilt_deg:g} with {view} looks at the horizon; allowed is {allowed}"
+            )
+        return self
+
+    @property
+    def _focal_px(self) -> float:
+        return self.width_px / 2 / tan(radians(self.horizontal_fov_deg) / 2)
+
     def pinhole(self) -> Pinhole:
-        focal_px = self.width_px / 2 / tan(radians(self.horizontal_fov_deg) / 2)
+        tilt_rad = radians(self.tilt_deg)
         return Pinhole(
-            self.width_px, self.height_px, focal_px, self.height_m, radians(self.tilt_deg), self.distance_m
+            self.width_px, self.height_px, self._focal_px, self.height_m, tilt_rad, self.distance_m
         )
 
 

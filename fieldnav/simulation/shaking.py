@@ -31,7 +31,9 @@ class Shaking:
         self._errors = errors
         self._roll_sign = -1 if mirrored else 1
         low, high = errors.shake_hz
-        self._angular_rps = 2 * pi * random.uniform(low, high, (3, OSCILLATIONS))
+        # One frequency from each part of the band: two that are nearly alike would beat.
+        share = (np.arange(OSCILLATIONS) + random.uniform(0, 1, (3, OSCILLATIONS))) / OSCILLATIONS
+        self._angular_rps = 2 * pi * (low + (high - low) * share)
         self._phase_rad = random.uniform(0, 2 * pi, (3, OSCILLATIONS))
 
     def at(self, stamp_s: float, speed_mps: float) -> Attitude:

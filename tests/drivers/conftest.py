@@ -1,5 +1,6 @@
 from collections.abc import Iterator
 from dataclasses import dataclass, field
+from pathlib import Path
 
 import can
 import pytest
@@ -70,6 +71,15 @@ class Bench:
         while (frame := self.tap.recv(timeout=0)) is not None:
             seen.append(frame)
         return [frame for frame in seen if identifier in (None, frame.arbitration_id)]
+
+
+@pytest.fixture
+def full_disk() -> Path:
+    """A file that can be opened but takes no byte, as on a full disk."""
+    device = Path("/dev/full")
+    if not device.exists():
+        pytest.skip("this system has no /dev/full")
+    return device
 
 
 @pytest.fixture

@@ -1,3 +1,4 @@
+import os
 import subprocess
 import sys
 from importlib.resources import files
@@ -9,7 +10,7 @@ from drivers.can_log import LoggedBus, open_bus, open_virtual_pair
 from drivers.simulated_modules import SimulatedModules
 from drivers.thorvald import ThorvaldWheels
 from drivers.wire_layout import wire_layout
-from fieldnav.errors import DriverError
+from fieldnav.errors import DriverError, OutputError
 from fieldnav.messages import Wheel, WheelSetpoint
 from fieldnav.settings.robot import Bus
 
@@ -100,6 +101,57 @@ def test_the_log_is_on_the_disk_up_to_the_last_second_before_it_is_closed(tmp_pa
     assert "(3.000000) can0 77F#05 T\n" in (tmp_path / "can.log").read_text()
     bus.shutdown()
     bus.shutdown()
+    far.shutdown()
+
+
+@pytest.mark.parametrize("frames", [1, 2000], ids=["at the first flush", "amid frames"])
+def test_a_log_that_cannot_be_written_lets_every_frame_pass_and_says_why(full_disk, frames):
+    host, far = open_virtual_pair()
+    bus = LoggedBus(host, full_disk, "can0")
+    assert bus.failure is None
+
+    for number in range(frames):
+        bus.send(can.Message(timestamp=number * 1e-4, arbitration_id=0x77F, is_extended_id=False, data=[5]))
+    far.send(can.Message(timestamp=1.0, arbitration_id=0x701, is_extended_id=False, data=[5]))
+    received = bus.recv(timeout=0)
+
+    assert bus.failure == "full cannot be written: No space left on device"
+    assert received is not None
+    assert received.arbitration_id == 0x701
+    assert sum(1 for _ in iter(lambda: far.recv(timeout=0), None)) == frames
+    bus.shutdown()
+    far.shutdown()
+
+
+def test_a_log_whose_last_lines_find_no_room_closes_the_bus_and_says_why(full_disk, tmp_path):
+    host, far = open_virtual_pair()
+    # The first frame is flushed to the disk that has room; the disk is full when the second is, at the end.
+    log = tmp_path / "can.log"
+    bus = LoggedBus(host, log, "can0")
+    bus.send(can.Message(timestamp=0.0, arbitration_id=0x77F, is_extended_id=False, data=[5]))
+    with full_disk.open("w") as full:
+        os.dup2(full.fileno(), bus._log.file.fileno())
+    bus.send(can.Message(timestamp=0.1, arbitration_id=0x77F, is_extended_id=False, data=[5]))
+    assert bus.failure is None
+
+    bus.shutdown()
+    bus.shutdown()
+
+    assert bus.failure == "can.log cannot be written: No space left on device"
+    assert log.read_text() == "(0.000000) can0 77F#05 T\n"
+    with pytest.raises(can.CanError):
+        host.send(can.Message(arbitration_id=1, is_extended_id=False))
+    far.shutdown()
+
+
+def test_a_log_that_cannot_be_begun_is_an_output_error_and_closes_the_bus(tmp_path):
+    host, far = open_virtual_pair()
+
+    with pytest.raises(OutputError, match=r"nowhere/can\.log: cannot be written: No such file"):
+        LoggedBus(host, tmp_path / "nowhere" / "can.log", "can0")
+
+    with pytest.raises(can.CanError):
+        host.send(can.Message(arbitration_id=1, is_extended_id=False))
     far.shutdown()
 
 

@@ -4,7 +4,7 @@ import pytest
 from drivers.host_line import LAST_SEQUENCE
 from drivers.thorvald import ThorvaldWheels
 from drivers.thorvald_protocol import Mode, ModuleFlag, Parameter
-from fieldnav.errors import DriverError
+from fieldnav.errors import DriverError, SettingsError
 from fieldnav.messages import Wheel, WheelSetpoint
 
 FORWARD = WheelSetpoint(0.5, 0.0)
@@ -285,7 +285,7 @@ def test_a_closed_bus_is_a_driver_error(bench):
 def test_a_node_that_the_layout_lacks_is_refused(robot, bench):
     modules = {**robot.modules, FL: robot.modules[FL].model_copy(update={"node_id": 9})}
 
-    with pytest.raises(DriverError, match=r"front_left \(node 9\).*only nodes 1, 2, 3, 4"):
+    with pytest.raises(SettingsError, match=r"modules\.front_left\.node_id: 9; allowed is one of 1, 2, 3, 4"):
         ThorvaldWheels(robot.model_copy(update={"modules": modules}), bench.far)
 
 

@@ -19,7 +19,9 @@ from drivers.module_units import (
     steering_to_per_mille,
 )
 from drivers.thorvald_protocol import IdentityPart, Kind
-from drivers.wire_layout import wire_layout
+from drivers.wire_layout import check_nodes, wire_layout
+from fieldnav.errors import SettingsError
+from fieldnav.messages import Wheel
 from fieldnav.settings.robot import Module
 
 MODULE = Module(node_id=1)
@@ -156,7 +158,37 @@ def test_the_layout_describes_every_id_of_the_document():
     bases = (0x80, 0x180, 0x200, 0x280, 0x300, 0x380, 0x400, 0x480, 0x500, 0x580, 0x600, 0x700)
     ids |= {base + node for base in bases for node in (1, 2, 3, 4)}
 
-    assert wire_layout().frame_ids == ids
+    assert {identifier for identifier in range(0x800) if is_described(identifier)} == ids
+
+
+def is_described(identifier):
+    """Whether frames of this id are read, at whatever length; the fourth byte names TPDO4's first part."""
+    data = bytes([0, 0, 0, IdentityPart.CONSTANTS, 0, 0, 0, 0])
+    frames = (
+        can.Message(arbitration_id=identifier, is_extended_id=False, data=data[:length])
+        for length in range(9)
+    )
+    return any(wire_layout().read(frame) is not None for frame in frames)
+
+
+def test_the_nodes_of_a_robot_that_the_layout_has_are_accepted(robot):
+    check_nodes(robot)
+
+
+@pytest.mark.parametrize("node_id", [5, 9, 127])
+def test_a_node_that_the_layout_lacks_is_one_line_that_names_the_key_the_value_and_what_is_allowed(
+    robot, node_id
+):
+    module = robot.modules[Wheel.FRONT_LEFT].model_copy(update={"node_id": node_id})
+    odd = robot.model_copy(update={"modules": {**robot.modules, Wheel.FRONT_LEFT: module}})
+
+    with pytest.raises(SettingsError) as caught:
+        check_nodes(odd)
+
+    assert str(caught.value) == (
+        f"robot test-robot: modules.front_left.node_id: {node_id}; "
+        "allowed is one of 1, 2, 3, 4, the nodes of thorvald.dbc"
+    )
 
 
 def test_cantools_names_a_line_of_our_log():

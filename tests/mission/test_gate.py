@@ -1,4 +1,5 @@
 from collections.abc import Iterator
+from dataclasses import replace
 from itertools import pairwise
 from math import cos, hypot, inf, nan, pi, radians
 
@@ -134,6 +135,53 @@ def test_a_stale_frame_sends_zero_at_once_and_says_why(rig, motion, age_s):
 
 def test_a_frame_within_its_age_passes(rig):
     assert rig.tick(AHEAD, age_s=0.5).reason is None
+
+
+@pytest.mark.parametrize("ahead_s", [0.021, 0.5, 100.0, inf])
+def test_a_frame_from_the_future_sends_zero_at_once_and_says_by_how_much(rig, ahead_s):
+    rig.run(1.0, AHEAD)
+    rig.sent_speeds()
+
+    passed = rig.tick(AHEAD, age_s=-ahead_s)
+
+    assert rig.sent_speeds() == {0}
+    assert passed.motion.twist == STANDSTILL
+    assert passed.reason == f"newest frame is stamped {ahead_s:.2f} s in the future, limit 0.02 s"
+
+
+def test_a_frame_that_comes_within_its_tick_passes(rig):
+    assert rig.tick(AHEAD, age_s=-0.02).reason is None
+
+
+@pytest.mark.parametrize(
+    ("stamp_s", "said"),
+    [(3.0, "1.00 s in the future"), (inf, "inf s in the future"), (nan, "nan s ago"), (-inf, "inf s ago")],
+)
+def test_a_report_whose_stamp_is_no_past_time_stops_all(rig, stamp_s, said):
+    rig.run(1.66, AHEAD)
+    rig.tick(AHEAD)
+    rig.sent_speeds()
+    odd = replace(rig.report.modules[FL], stamp_s=stamp_s)
+    report = WheelReport(
+        {**{wheel: replace(module, stamp_s=2.0) for wheel, module in rig.report.modules.items()}, FL: odd}
+    )
+
+    passed = rig.gate.pass_on(2.0, AHEAD, True, FRESH_S, report)
+
+    assert rig.sent_speeds() == {0}
+    assert passed.reason is not None
+    assert passed.reason.startswith(f"module front_left last reported {said}, limit")
+
+
+def test_the_mode_changes_only_while_every_wheel_reports_less_than_two_centimetres_a_second(rig):
+    def mode_at(speed_mps):
+        slow = {wheel: replace(said, speed_mps=0.0) for wheel, said in rig.report.modules.items()}
+        report = WheelReport({**slow, FL: replace(slow[FL], speed_mps=speed_mps)})
+        return rig.gate.pass_on(rig.now_s, SIDEWAYS, True, FRESH_S, report).motion.steering
+
+    assert mode_at(-0.021) is Steering.DIFFERENTIAL
+    assert mode_at(nan) is Steering.DIFFERENTIAL
+    assert mode_at(0.019) is Steering.OMNIDIRECTIONAL
 
 
 @pytest.mark.parametrize("broken", [nan, inf, -inf])

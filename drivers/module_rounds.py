@@ -1,0 +1,63 @@
+"""What the host says to all four modules in one go; a frame that fails keeps no other from going out."""
+
+from collections.abc import Callable, Iterable, Mapping
+from functools import partial
+
+from drivers.host_line import HostLine
+from drivers.module_link import Missing, ModuleLink
+from drivers.thorvald_protocol import RoboteqObject
+from fieldnav.errors import DriverError
+from fieldnav.messages import Wheel, WheelSetpoint
+
+Frame = Callable[[], None]
+"""A frame that is still to be sent."""
+
+
+class ModuleRounds:
+    """Rounds to every module; each tries all its frames, then raises DriverError for the first failure."""
+
+    def __init__(self, line: HostLine, links: Mapping[Wheel, ModuleLink]) -> None:
+        self._line = line
+        self._links = links
+
+    def drive(self, now_s: float, setpoints: Mapping[Wheel, WheelSetpoint]) -> None:
+        """A set-point for each module; zero at its present angle for a wheel that is not mentioned."""
+        self._line.begin_command()
+        frames: list[tuple[ModuleLink, Frame]] = []
+        for wheel, link in self._links.items():
+            point = setpoints.get(wheel)
+            speed_mps = point.speed_mps if point else 0.0
+            frames.append((link, partial(self._line.drive, now_s, link.module, speed_mps)))
+            steering_rad = point.steering_rad if point else link.steering_rad
+            if steering_rad is not None:  # a wheel whose angle is not known is left where it is
+                frames.append((link, partial(self._line.steer, now_s, link.module, steering_rad)))
+        _send_all(frames)
+
+    def ask(self, now_s: float) -> None:
+        """Ask every module for what it still has to say."""
+        frames: list[tuple[ModuleLink, Frame]] = []
+        for link in self._links.values():
+            if link.missing is Missing.STATE:
+                frames.append((link, partial(self._line.start_node, now_s, link.module)))
+            if link.fault_flags is None:
+                entry = RoboteqObject.FAULT_FLAGS
+                frames.append((link, partial(self._line.read_object, now_s, link.module, entry)))
+        _send_all(frames)
+
+    def set(self, now_s: float, entry: RoboteqObject) -> None:
+        """Write 1 to an object of every module that acts when written."""
+        links = self._links.values()
+        _send_all([(link, partial(self._line.set_object, now_s, link.module, entry)) for link in links])
+
+
+def _send_all(frames: Iterable[tuple[ModuleLink, Frame]]) -> None:
+    first: DriverError | None = None
+    for link, send in frames:
+        try:
+            send()
+        except DriverError as error:
+            if first is None:
+                first = DriverError(f"{link.name}: {error}")
+                first.__cause__ = error
+    if first is not None:
+        raise first

@@ -1,0 +1,53 @@
+"""Whether the modules are well: heard in time, not rebooted, those of the robot file, without a fault."""
+
+from collections.abc import Collection
+
+from drivers.module_link import ModuleLink
+from drivers.thorvald_protocol import FaultFlag, words
+from fieldnav.errors import DriverError
+
+START_LIMIT_S = 5.0
+"""How long bringing up may take: twice the 2 s in which TPDO4 tells both its parts, and one; our choice."""
+
+ALL_FAULTS = 0xFF
+"""Object 2112 has eight flags."""
+
+
+def objection(link: ModuleLink) -> str | None:
+    """What about the module is not well or not as in the robot file, with both values; else None."""
+    if link.constants is not None:
+        wanted = {"DriveDirection": link.module.drive_direction, "HomeCount": link.module.home_count}
+        for quantity, expected in wanted.items():
+            found = round(link.constants[quantity])
+            if found != expected:
+                return f"{link.name}: {quantity} is {found} in the module but {expected} in the robot file"
+    if link.fault_flags:
+        return f"{link.name} reports faults: {words(FaultFlag(link.fault_flags & ALL_FAULTS))}"
+    return None
+
+
+def check_modules(
+    links: Collection[ModuleLink], now_s: float, starting_s: float, silence_limit_s: float
+) -> None:
+    """Raise DriverError for the first module that is not well; `starting_s` is when bringing up began.
+
+    A module that is silent must tell everything anew before it may move; a reboot is an error once.
+    """
+    for link in links:
+        link.silent = now_s - link.heard_s > silence_limit_s
+        if link.silent:
+            link.forget()
+    for link in links:
+        if link.silent:
+            silence_s = now_s - link.heard_s
+            raise DriverError(
+                f"{link.name} has been silent for {silence_s:.2f} s, limit {silence_limit_s:.2f} s"
+            )
+        if link.rebooted:
+            link.rebooted = False
+            raise DriverError(f"{link.name} has left operation or rebooted")
+        objected = objection(link)
+        if objected is not None:
+            raise DriverError(objected)
+        if link.missing is not None and now_s - starting_s > START_LIMIT_S:
+            raise DriverError(f"{link.name} has not told {link.missing.value} within {START_LIMIT_S:.0f} s")

@@ -1,0 +1,45 @@
+"""What the wheels say the robot does: its twist, and how far it has come since the run began."""
+
+from math import hypot
+
+from fieldnav.control.kinematics import body_twist
+from fieldnav.messages import STANDSTILL, Twist, WheelReport, WheelSetpoint
+from fieldnav.settings.robot import Robot
+
+STANDING_MPS = 0.01
+"""Slower than this the robot stands; one motor revolution a minute is 0.5 mm/s. Our choice."""
+STANDING_RPS = 0.01
+"""The same for turning, half a degree a second."""
+
+
+class Travel:
+    """Adds up the modules' reports: to bound manoeuvres and to judge over distance, never to navigate."""
+
+    def __init__(self, robot: Robot) -> None:
+        self._robot = robot
+        self._measured_s: float | None = None
+        self._known = False
+        self.twist: Twist = STANDSTILL
+        self.forward_m = 0.0
+        self.sideways_m = 0.0
+
+    @property
+    def standing(self) -> bool:
+        """Whether all modules say that the robot stands; a silent module says nothing."""
+        still = hypot(self.twist.vx_mps, self.twist.vy_mps) < STANDING_MPS
+        return self._known and still and abs(self.twist.yaw_rate_rps) < STANDING_RPS
+
+    def measure(self, now_s: float, report: WheelReport) -> None:
+        """Take in the modules' newest words; while one is missing nothing is known and nothing added."""
+        dt_s = 0.0 if self._measured_s is None else now_s - self._measured_s
+        self._measured_s = now_s
+        self._known = len(report.modules) == len(self._robot.modules)
+        if not self._known:
+            self.twist = STANDSTILL
+            return
+        states = {
+            wheel: WheelSetpoint(said.speed_mps, said.steering_rad) for wheel, said in report.modules.items()
+        }
+        self.twist = body_twist(states, self._robot.geometry)
+        self.forward_m += self.twist.vx_mps * dt_s
+        self.sideways_m += self.twist.vy_mps * dt_s

@@ -1,0 +1,120 @@
+"""The part of YAML that settings need: mappings, lists, text, numbers, true and false."""
+
+import re
+import unicodedata
+from collections.abc import Hashable
+from typing import Any
+
+import yaml
+from yaml.constructor import ConstructorError
+
+DEEPEST_NESTING = 20
+"""Levels of a document; settings have four."""
+LONGEST_NUMBER = 40
+"""Characters of a number; more is a slip of the keyboard and takes long to convert."""
+
+_WRITTEN_OUT = "; write the values out"
+_LINE_BREAKS_AND_TABS = "\n\r\t"
+_NOT_TEXT = ("Cc", "Cs")
+"""Unicode's categories of control characters and of halves of a character."""
+_UNUSED_TAGS = tuple(f"tag:yaml.org,2002:{name}" for name in ("timestamp", "merge", "value"))
+
+
+class RefusedError(yaml.MarkedYAMLError):
+    """Valid YAML that settings must not hold."""
+
+
+class StrictLoader(yaml.SafeLoader):
+    """The safe loader without what settings need not: sharing, tags, dates, a key given twice.
+
+    Without sharing a document is no larger than its file and no value holds itself.
+    """
+
+    # What is left of the library's guesses; a date stays the text it was written as.
+    yaml_implicit_resolvers = {  # noqa: RUF012 - the library's own attribute, its type is given
+        first: [(tag, pattern) for tag, pattern in guesses if tag not in _UNUSED_TAGS]
+        for first, guesses in yaml.SafeLoader.yaml_implicit_resolvers.items()
+    }
+
+    def __init__(self, text: str) -> None:
+        super().__init__(text)
+        self._depth = 0
+
+    def compose_node(self, parent: yaml.Node | None, index: Any) -> yaml.Node | None:
+        """Refuse what cannot be refused later: sharing, tags, and nesting without end."""
+        event = self.peek_event()
+        if isinstance(event, yaml.AliasEvent):
+            raise RefusedError(
+                problem=f"allowed is no alias (*{event.anchor}){_WRITTEN_OUT}", problem_mark=event.start_mark
+            )
+        if getattr(event, "anchor", None) is not None:
+            raise RefusedError(
+                problem=f"allowed is no anchor (&{event.anchor}){_WRITTEN_OUT}", problem_mark=event.start_mark
+            )
+        if (tag := getattr(event, "tag", None)) is not None:
+            short = tag.replace("tag:yaml.org,2002:", "!!")
+            raise RefusedError(
+                problem=f"allowed is no tag ({short}); write the plain value", problem_mark=event.start_mark
+            )
+        self._depth += 1
+        if self._depth > DEEPEST_NESTING:
+            raise RefusedError(
+                problem=f"is nested more than {DEEPEST_NESTING} deep", problem_mark=event.start_mark
+            )
+        node = super().compose_node(parent, index)
+        self._depth -= 1
+        return node
+
+    def construct_mapping(self, node: yaml.MappingNode, deep: bool = False) -> dict[Hashable, Any]:
+        seen: set[Hashable] = set()
+        for key_node, _ in node.value:
+            mark = key_node.start_mark
+            if not isinstance(key_node, yaml.ScalarNode):
+                raise RefusedError(problem="a list or a mapping cannot be a key", problem_mark=mark)
+            if key_node.value == "<<":
+                raise RefusedError(problem=f"allowed is no merge key (<<){_WRITTEN_OUT}", problem_mark=mark)
+            key = self.construct_object(key_node, deep=True)
+            if key in seen:
+                raise ConstructorError(problem=f"key '{key}' is given twice", problem_mark=mark)
+            seen.add(key)
+        return super().construct_mapping(node, deep)
+
+    def construct_yaml_str(self, node: yaml.ScalarNode) -> str:
+        """Text; what could stand in no file name and on no terminal is refused."""
+        text = str(self.construct_scalar(node))
+        bad = next((each for each in text if _is_no_text(each)), None)
+        if bad is not None:
+            raise RefusedError(
+                problem=f"allowed is no control character (\\u{ord(bad):04x}) in text",
+                problem_mark=node.start_mark,
+            )
+        return text
+
+    def construct_yaml_int(self, node: yaml.ScalarNode) -> int:
+        self._check_length(node)
+        return int(super().construct_yaml_int(node))
+
+    def construct_yaml_float(self, node: yaml.ScalarNode) -> float:
+        self._check_length(node)
+        return float(super().construct_yaml_float(node))
+
+    def _check_length(self, node: yaml.ScalarNode) -> None:
+        if len(node.value) > LONGEST_NUMBER:
+            found = f"a number of {len(node.value)} characters"
+            raise RefusedError(
+                problem=f"{found}; allowed are at most {LONGEST_NUMBER}", problem_mark=node.start_mark
+            )
+
+
+def _is_no_text(character: str) -> bool:
+    return unicodedata.category(character) in _NOT_TEXT and character not in _LINE_BREAKS_AND_TABS
+
+
+for _name in ("str", "int", "float"):
+    StrictLoader.add_constructor(f"tag:yaml.org,2002:{_name}", getattr(StrictLoader, f"construct_yaml_{_name}"))
+StrictLoader.add_implicit_resolver(
+    # YAML 1.1, which the library follows, takes 5e-4 for text; nobody who writes it means that.
+    "tag:yaml.org,2002:float",
+    re.compile(r"^[-+]?[0-9]+[eE][-+]?[0-9]+$"),
+    list("-+0123456789"),
+)
