@@ -85,20 +85,20 @@ class LoggedBus(can.BusABC):
             self._close_log()
 
     def _keep(self, msg: can.Message) -> None:
-        """Note a frame, as long as there is a log to note it in."""
-        if self._log is None:
-            return
+        """Note a frame; if that fails, give the log up for good."""
         try:
-            self._note(msg, self._log)
+            self._note(msg)
         except OSError as error:
             self._give_up(error)
             self._close_log()
 
-    def _note(self, msg: can.Message, log: can.CanutilsLogWriter) -> None:
+    def _note(self, msg: can.Message) -> None:
+        if self._log is None:
+            return
         msg.channel = self._channel
-        log.on_message_received(msg)
+        self._log.on_message_received(msg)
         if self._flushed_s is None or not 0 <= msg.timestamp - self._flushed_s < FLUSH_S:
-            log.file.flush()
+            self._log.file.flush()
             self._flushed_s = msg.timestamp
 
     def _close_log(self) -> None:

@@ -2,6 +2,7 @@
 
 import os
 import sys
+from io import TextIOWrapper
 from typing import Annotated
 
 import typer
@@ -66,9 +67,14 @@ def run(arguments: list[str] | None = None) -> int:
     except (KeyboardInterrupt, typer.Abort):
         status = INTERRUPTED  # some versions of typer return it instead
     except BrokenPipeError:
-        # The reader has gone, as `head` does; standard output must not be flushed into it again at exit.
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        # The reader has gone, as `head` does.
+        _drop_output()
         return OK
+    except OSError as error:
+        # A disk that is full while a command prints; whatever else is written says so where it is written.
+        _drop_output()
+        print_error(f"{error.filename or 'standard output'}: cannot be written: {error.strerror or error}")
+        return FAILED
     except UsageError as error:
         if line := _usage(error):
             print_error(line)
@@ -76,6 +82,11 @@ def run(arguments: list[str] | None = None) -> int:
     if status == INTERRUPTED:
         print_error("interrupted")
     return status if isinstance(status, int) else OK
+
+
+def _drop_output() -> None:
+    """Let go of standard output: what could not be written must not be tried again at exit."""
+    os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
 
 
 def _usage(error: Exception) -> str:
@@ -90,4 +101,7 @@ def _usage(error: Exception) -> str:
 
 
 def main() -> None:
+    for stream in (sys.stdout, sys.stderr):
+        if isinstance(stream, TextIOWrapper):  # a file's name may hold what the terminal cannot show
+            stream.reconfigure(errors="backslashreplace")
     sys.exit(run())

@@ -7,9 +7,10 @@ from typing import Any
 
 from rich.console import Console
 from rich.table import Table
+from rich.text import Text
 
 FAILED = 2
-"""Exit status of wrong input and of a fault."""
+"""Exit status of wrong input, and of output that cannot be written; a mission that stops exits with 1."""
 
 PLAIN_WIDTH = 200
 """Columns of a table that goes into a file or a pipe, where no terminal sets a width."""
@@ -22,18 +23,20 @@ def out() -> Console:
 
 
 def table(
-    title: str, columns: Sequence[str], rows: Sequence[Sequence[str]], right: Sequence[str] = ()
+    title: str, columns: Sequence[str], rows: Sequence[Sequence[str | Text]], right: Sequence[str] = ()
 ) -> Table:
-    """A table without vertical rules; the columns named in `right` hold figures."""
-    made = Table(
-        title=title, title_justify="left", title_style="bold", box=None, pad_edge=False, padding=(0, 2, 0, 0)
-    )
+    """A table without vertical rules; the columns named in `right` hold figures.
+
+    Titles and cells are shown as they are: a square bracket in a file's name is no markup.
+    """
+    shown = Text(title, style="bold") if title else None
+    made = Table(title=shown, title_justify="left", box=None, pad_edge=False, padding=(0, 2, 0, 0))
     for column in columns:
         made.add_column(
             column, justify="right" if column in right else "left", header_style="dim", overflow="fold"
         )
     for row in rows:
-        made.add_row(*row)
+        made.add_row(*(cell if isinstance(cell, Text) else Text(cell) for cell in row))
     return made
 
 

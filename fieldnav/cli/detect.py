@@ -1,12 +1,14 @@
 """`fieldnav detect`: the crop rows of pictures, for a person, a program, or to look at."""
 
 import json
+import os
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
 from fieldnav.cli.console import out, table
+from fieldnav.settings.robot import LARGEST_SIDE_PX
 
 if TYPE_CHECKING:
     from fieldnav.cli.pictures import Detection
@@ -16,7 +18,7 @@ PIXEL_DIGITS, ANGLE_DIGITS, SCORE_DIGITS, MILLISECOND_DIGITS = 1, 2, 3, 1
 
 
 def detect(
-    images: Annotated[list[Path], typer.Argument(help="Pictures, colour, of any size.", metavar="IMAGE")],
+    images: Annotated[list[str], typer.Argument(help="Pictures, colour, of any size.", metavar="IMAGE")],
     crop: Annotated[str, typer.Option(help="Crop profile; name or path.")] = "sugar-beet",
     robot: Annotated[str, typer.Option(help="Robot whose front camera took them; name or path.")] = "bonnbot",
     overlay: Annotated[
@@ -31,6 +33,8 @@ def detect(
     A row is the line x = x_top + (x_bottom - x_top) * y / (height - 1), in pixels.
     Its angle is from the image's vertical, positive clockwise.
     """
+    # OpenCV reads this when it is loaded: a picture's head may claim any size, which is allocated at once.
+    os.environ.setdefault("OPENCV_IO_MAX_IMAGE_PIXELS", str(LARGEST_SIDE_PX**2))
     # Here, because other commands need not wait for OpenCV.
     from fieldnav.cli import pictures  # noqa: PLC0415
     from fieldnav.cli.detection_overlay import draw_detection  # noqa: PLC0415
@@ -54,7 +58,7 @@ def detect(
 
 def _document(found: "Detection") -> dict[str, Any]:
     return {
-        "image": str(found.path),
+        "image": found.path,
         "width": found.camera.width_px,
         "height": found.camera.height_px,
         "rows": [

@@ -1,6 +1,7 @@
 """The tables of `fieldnav log`."""
 
 from collections.abc import Sequence
+from math import isfinite
 
 from rich.table import Table
 from rich.text import Text
@@ -21,10 +22,8 @@ SECONDS_A_MINUTE = 60
 def runs_table(title: str, overviews: Sequence[Overview]) -> Table:
     """One line a run."""
     columns = ("run", "outcome", "lanes", "switches", "distance", "time", "ended in")
-    made = table(f"runs in {title}", columns, (), right=("lanes", "switches", "distance", "time"))
-    for each in overviews:
-        made.add_row(each.run, _outcome(each), *_figures(each), _ending(each))
-    return made
+    rows = [(each.run, _outcome(each), *_figures(each), _ending(each)) for each in overviews]
+    return table(f"runs in {title}", columns, rows, right=("lanes", "switches", "distance", "time"))
 
 
 def heading(each: Overview) -> Text:
@@ -33,11 +32,11 @@ def heading(each: Overview) -> Text:
     figures = (
         f"lanes {lanes}, switches {switches}, {distance} in {time}" if each.summary else f"{time} recorded"
     )
-    return Text.assemble((each.run, "bold"), "  ", _outcome(each), f"  {figures}", f"\n{_ending(each)}", "\n")
+    return Text.assemble((each.run, "bold"), "  ", _outcome(each), f"  {figures}", "\n", _ending(each), "\n")
 
 
 def transitions_table(lines: Sequence[Line]) -> Table:
-    """One line a transition, with what was judged, the deciding quantities first."""
+    """One line a transition: its reason, then what was judged."""
     columns = ("time", "from", "to", "event", "lane", "rows", "because")
     rows = [
         (
@@ -47,11 +46,17 @@ def transitions_table(lines: Sequence[Line]) -> Table:
             line.event,
             "" if line.lane is None else str(line.lane),
             "" if line.rows is None else str(line.rows),
-            "\n".join(part for part in (line.reason, *map(judgement, decisive(line.evidence))) if part),
+            _because(line),
         )
         for line in lines
     ]
     return table("", columns, rows, right=("time", "lane", "rows"))
+
+
+def _because(line: Line) -> Text:
+    """The reason, which stands out where there is one, above the deciding quantities."""
+    reason = [Text(line.reason, style="bold")] if line.reason else []
+    return Text("\n").join([*reason, *(Text(judgement(judged)) for judged in decisive(line.evidence))])
 
 
 def decisive(evidence: Sequence[Judged]) -> list[Judged]:
@@ -91,10 +96,14 @@ def _outcome(each: Overview) -> Text:
     return Text(each.outcome.value, style=COLOURS[each.outcome])
 
 
-def _ending(each: Overview) -> str:
-    return ": ".join(part for part in (each.last_state, each.reason) if part)
+def _ending(each: Overview) -> Text:
+    """The last state, and why it was entered."""
+    parts = [Text(each.last_state)] if each.last_state else []
+    return Text(": ").join([*parts, Text(each.reason, style="bold")] if each.reason else parts)
 
 
 def _clock(seconds: float) -> str:
+    if not isfinite(seconds):
+        return "unknown"
     minutes, rest = divmod(seconds, SECONDS_A_MINUTE)
     return f"{int(minutes)}:{rest:04.1f}"

@@ -17,8 +17,11 @@ from fieldnav.perception.perceive import View, find
 from fieldnav.pinhole import Pinhole
 from fieldnav.settings.crop import CropProfile
 from fieldnav.settings.loading import revised
-from fieldnav.settings.robot import CameraSettings
+from fieldnav.settings.regular_file import read_regular
+from fieldnav.settings.robot import LARGEST_SIDE_PX, CameraSettings
 
+LARGEST_FILE_BYTES = 4 * LARGEST_SIDE_PX**2
+"""Of a picture; room for the largest one without compression and with an alpha channel."""
 MILLISECONDS = 1000.0
 OVERLAY_SUFFIX = "-rows.jpg"
 OVERLAY_QUALITY = 92
@@ -32,7 +35,7 @@ class Detection:
     camera: the robot's, at the picture's size; stride_px: from one place of the sliding window to the next.
     """
 
-    path: Path
+    path: str
     image: Image
     camera: Pinhole
     view: View
@@ -44,35 +47,45 @@ class Detection:
         return degrees(atan2(row.x_top_px - row.x_bottom_px, self.camera.height_px - 1))
 
 
-def check(path: Path, settings: CameraSettings) -> None:
+def check(path: str, settings: CameraSettings) -> None:
     """Raise SettingsError when the file is no picture that rows can be looked for in."""
     camera_of(read_picture(path), path, settings)
 
 
-def read_picture(path: Path) -> Image:
+def read_picture(path: str) -> Image:
     """The picture in a file, shape (height, width, 3), blue green red. Raises SettingsError."""
-    try:
-        content = path.read_bytes()
-    except FileNotFoundError as error:
-        raise SettingsError(f"{path}: there is no such file; allowed is a picture") from error
-    except OSError as error:
-        raise SettingsError(f"{path}: cannot be read: {error.strerror}; allowed is a picture") from error
-    image = cv2.imdecode(np.frombuffer(content, np.uint8), cv2.IMREAD_COLOR) if content else None
+    content = read_regular(path, LARGEST_FILE_BYTES)
+    image = _decoded(content) if content else None
     if image is None:
-        raise SettingsError(f"{path}: is no picture; allowed is JPEG, PNG, TIFF, BMP or WebP")
-    return np.asarray(image, dtype=np.uint8)
+        raise SettingsError(
+            f"{path}: is no whole picture; allowed is JPEG, PNG, TIFF, BMP or WebP of at most "
+            f"{LARGEST_SIDE_PX} px a side"
+        )
+    return image
 
 
-def camera_of(image: Image, path: Path, settings: CameraSettings) -> Pinhole:
+def _decoded(content: bytes) -> Image | None:
+    """The picture that the bytes hold, if they hold one; OpenCV's own words about it are kept quiet."""
+    level = cv2.utils.logging.setLogLevel(cv2.utils.logging.LOG_LEVEL_SILENT)
+    try:
+        image = cv2.imdecode(np.frombuffer(content, np.uint8), cv2.IMREAD_COLOR)
+    except cv2.error:  # a head that claims more pixels than OpenCV allocates
+        return None
+    finally:
+        cv2.utils.logging.setLogLevel(level)
+    return None if image is None else np.asarray(image, dtype=np.uint8)
+
+
+def camera_of(image: Image, path: str, settings: CameraSettings) -> Pinhole:
     """The robot's camera as if its pictures had this size: the field of view stays.
 
-    Raises SettingsError for a size that no camera has.
+    Raises SettingsError for a size that no camera has, and for one so tall that it shows the horizon.
     """
     size = {"width_px": image.shape[1], "height_px": image.shape[0]}
-    return revised(settings, size, str(path)).pinhole()
+    return revised(settings, size, path).pinhole()
 
 
-def detect_rows(path: Path, crop: CropProfile, settings: CameraSettings) -> Detection:
+def detect_rows(path: str, crop: CropProfile, settings: CameraSettings) -> Detection:
     """Find every row of a picture; the time is that of the finding alone. Raises SettingsError."""
     image = read_picture(path)
     camera = camera_of(image, path, settings)
@@ -82,7 +95,7 @@ def detect_rows(path: Path, crop: CropProfile, settings: CameraSettings) -> Dete
     return Detection(path, image, camera, view, crop.finding.stride * camera.width_px, milliseconds)
 
 
-def overlay_paths(images: Sequence[Path], folder: Path) -> dict[Path, Path]:
+def overlay_paths(images: Sequence[str], folder: Path) -> dict[str, Path]:
     """Where each picture's overlay goes; the folder is made if it lacks. Raises OutputError."""
     try:
         folder.mkdir(parents=True, exist_ok=True)
@@ -92,12 +105,12 @@ def overlay_paths(images: Sequence[Path], folder: Path) -> dict[Path, Path]:
         raise OutputError(
             f"{folder}: overlays cannot be written here: {error.strerror}; allowed is a folder you can write"
         ) from error
-    paths: dict[Path, Path] = {}
+    paths: dict[str, Path] = {}
     for image in dict.fromkeys(images):
-        path, number = folder / f"{image.stem}{OVERLAY_SUFFIX}", 1
+        path, number = folder / f"{Path(image).stem}{OVERLAY_SUFFIX}", 1
         while path in paths.values():
             number += 1
-            path = folder / f"{image.stem}-{number}{OVERLAY_SUFFIX}"
+            path = folder / f"{Path(image).stem}-{number}{OVERLAY_SUFFIX}"
         paths[image] = path
     return paths
 

@@ -4,20 +4,24 @@ import json
 import sys
 from enum import Enum
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from fieldnav.cli.console import out, print_json, table
+from fieldnav.cli.console import out, print_json
 from fieldnav.messages import Side
 
 if TYPE_CHECKING:
     from fieldnav.journal.directory import RunDirectory
     from fieldnav.journal.summary import Summary
     from fieldnav.mission.simulated import Run
+    from fieldnav.settings.field import FieldSettings
 
 STOPPED = 1
-"""Exit status of a mission that ended before its field did."""
+"""Exit status of a mission that ended before its field did, or left a lane out."""
+
+OPTIONS = {"crop": "--crop", "lanes": "--lanes", "length_m": "--length", "seed": "--seed"}
+"""The field's keys that options change."""
 
 
 class SideOption(Enum):
@@ -43,32 +47,49 @@ def simulate(
     as_json: Annotated[bool, typer.Option("--json", help="Print summary.json and nothing else.")] = False,
 ) -> int:
     """Drive a whole field in simulation: the real mission, driver and CAN frames, rendered cameras."""
-    # Here, because other commands need not wait for what drives.
-    from fieldnav.journal.summary import to_json  # noqa: PLC0415
-    from fieldnav.mission.simulated import Run  # noqa: PLC0415
-    from fieldnav.mission.simulated import simulate as drive  # noqa: PLC0415
-    from fieldnav.settings.loading import load_crop, load_field, load_robot, revised  # noqa: PLC0415
+    settings = _field(field, {"crop": crop, "lanes": lanes, "length_m": length, "seed": seed})
+    run = _run(settings, robot, Side(side.value), out_dir, video, realtime)
+    return _drive_for_programs(run) if as_json else _drive_for_people(run)
 
-    given = {"crop": crop, "lanes": lanes, "length_m": length, "seed": seed}
-    changes: dict[str, Any] = {key: value for key, value in given.items() if value is not None}
-    settings = revised(load_field(field), changes)
-    run = Run(
-        field=settings,
-        crop=load_crop(settings.crop),
-        robot=load_robot(robot),
-        lanes=settings.lanes,
-        side=Side(side.value),
-        parent=out_dir,
-        video=video,
-        realtime=realtime,
-    )
-    if as_json:
-        directory, summary = drive(run)
-        print_json({"run": str(directory.path), **json.loads(to_json(summary))})
-    else:
-        directory, summary = _drive_watched(run)
-        _report(directory, summary)
-    return 0 if summary.completed else STOPPED
+
+def _field(name: str, given: "dict[str, str | float | None]") -> "FieldSettings":
+    """The field as the options change it. Raises SettingsError."""
+    from fieldnav.settings.loading import load_field, revised  # noqa: PLC0415 - see _run
+
+    changes = {key: value for key, value in given.items() if value is not None}
+    return revised(load_field(name), changes, label="", called=OPTIONS)
+
+
+def _run(field: "FieldSettings", robot: str, side: Side, parent: Path, video: bool, realtime: bool) -> "Run":
+    """What is to be driven. Raises SettingsError where a file is wrong or two of them do not go together."""
+    # Here, because other commands need not wait for what drives.
+    from fieldnav.mission.simulated import Run  # noqa: PLC0415
+    from fieldnav.settings.loading import check_size, load_crop, load_robot  # noqa: PLC0415
+
+    crop = load_crop(field.crop)
+    check_size(field, crop)
+    return Run(field, crop, load_robot(robot), field.lanes, side, parent, video, realtime)
+
+
+def _drive_for_programs(run: "Run") -> int:
+    """Drive and print the figures as JSON; returns the exit status."""
+    from fieldnav.cli.mission_report import succeeded  # noqa: PLC0415 - see _run
+    from fieldnav.journal.summary import to_json  # noqa: PLC0415
+    from fieldnav.mission.simulated import simulate as drive  # noqa: PLC0415
+
+    directory, summary = drive(run)
+    print_json({"run": str(directory.path), **json.loads(to_json(summary))})
+    return 0 if succeeded(summary) else STOPPED
+
+
+def _drive_for_people(run: "Run") -> int:
+    """Drive and print a table; returns the exit status."""
+    from fieldnav.cli.mission_report import report, succeeded  # noqa: PLC0415 - see _run
+
+    directory, summary = _drive_watched(run)
+    out().print(report(directory, summary))
+    print(f"run directory: {directory.path}")
+    return 0 if succeeded(summary) else STOPPED
 
 
 def _drive_watched(run: "Run") -> "tuple[RunDirectory, Summary]":
@@ -84,30 +105,3 @@ def _drive_watched(run: "Run") -> "tuple[RunDirectory, Summary]":
         return drive(run)
     with Live(Text("setting up"), console=Console(stderr=True), auto_refresh=False, transient=True) as live:
         return drive(run, [LiveLine(live, run.lanes)])
-
-
-def _report(directory: "RunDirectory", summary: "Summary") -> None:
-    """The table at the end."""
-    ended = "finished" if summary.completed else "stopped before the end; see the last lines of the journal"
-    rows = [
-        ("outcome", ended),
-        ("lanes", f"{summary.lanes.done} of {summary.lanes.total}"),
-        ("distance", f"{summary.distance_m:.1f} m in {summary.duration_s:.0f} s"),
-        ("speed of simulation", f"{summary.realtime_factor:.1f} x real time, {summary.wall_s:.0f} s"),
-        ("switches", f"{summary.switches.succeeded} of {summary.switches.attempted}"),
-        ("faults", str(summary.faults)),
-    ]
-    used = summary.headland_m
-    if used.mean is not None:
-        rows.append(("headland used", f"{used.mean:.2f} m, at most {used.max:.2f} m"))
-    if truth := summary.truth:
-        track, heading = truth.cross_track_cm, truth.heading_deg
-        off = f"{track.mean} +- {track.std} cm, 95 % within {track.p95}, at most {track.max}"
-        rows += [
-            ("cross-track error", off),
-            ("heading error", f"{heading.mean} +- {heading.std} deg, at most {heading.max}"),
-            ("crop plants run over", str(truth.crop_plants_run_over)),
-            ("lanes missed, repeated", f"{truth.lanes_missed}, {truth.lanes_repeated}"),
-        ]
-    out().print(table("", ("", ""), rows))
-    print(f"run directory: {directory.path}")

@@ -1,5 +1,7 @@
 """A run's directory: one folder a run, named by its time and what was driven, and what lies where in it."""
 
+import os
+from contextlib import suppress
 from dataclasses import dataclass
 from datetime import UTC, datetime
 from pathlib import Path
@@ -60,23 +62,32 @@ class RunDirectory:
 
 
 def runs_in(parent: Path) -> list[RunDirectory]:
-    """The runs below a folder, newest first; none when there is no such folder."""
-    if not parent.is_dir():
+    """The runs below a folder, newest first; none when there is no such folder.
+
+    Raises FieldnavError for what is no folder that can be read.
+    """
+    try:
+        paths = list(parent.iterdir())
+    except FileNotFoundError:
         return []
-    runs = [RunDirectory(path) for path in parent.iterdir() if path.is_dir()]
-    return sorted((run for run in runs if run.journal.exists()), key=lambda run: run.path.name, reverse=True)
+    except OSError as error:
+        raise FieldnavError(
+            f"{parent}: cannot be read: {error.strerror}; allowed is a folder that holds runs"
+        ) from error
+    runs = [run for run in map(RunDirectory, paths) if os.path.exists(run.journal)]
+    return sorted(runs, key=lambda run: run.path.name, reverse=True)
 
 
 def find_run(name_or_path: str, parent: Path) -> RunDirectory:
     """The run that 'last', a path, or a name stands for; of a part, the newest. Raises FieldnavError."""
+    given = RunDirectory(Path(name_or_path))
+    if name_or_path != "last" and os.path.exists(given.journal):  # which no name is too long for
+        return given
     runs = runs_in(parent)
     if name_or_path == "last":
         if not runs:
             raise FieldnavError(f"{parent}: holds no runs; allowed is the path of a run's directory")
         return runs[0]
-    given = RunDirectory(Path(name_or_path))
-    if given.journal.exists():
-        return given
     if matching := [run for run in runs if name_or_path and name_or_path in run.path.name]:
         return next((run for run in matching if run.path.name == name_or_path), matching[0])
     raise FieldnavError(
@@ -87,7 +98,7 @@ def find_run(name_or_path: str, parent: Path) -> RunDirectory:
 def _make_folders(parent: Path) -> list[Path]:
     """Make `parent` and what lacks above it; returns what was made, deepest first."""
     made: list[Path] = []
-    lacking = [folder for folder in (parent, *parent.parents) if not folder.exists()]
+    lacking = [folder for folder in (parent, *parent.parents) if not os.path.exists(folder)]
     for folder in reversed(lacking):
         try:
             folder.mkdir(exist_ok=True)
@@ -100,7 +111,8 @@ def _make_folders(parent: Path) -> list[Path]:
 
 def _remove(folders: list[Path]) -> None:
     for folder in folders:
-        folder.rmdir()
+        with suppress(OSError):  # another program has put something there meanwhile
+            folder.rmdir()
 
 
 def _unwritable(parent: Path, error: OSError) -> OutputError:

@@ -32,7 +32,7 @@ class Entry:
 class Judged(BaseModel):
     """One quantity as read back; a value that was not a number is None."""
 
-    model_config = ConfigDict(frozen=True)
+    model_config = ConfigDict(frozen=True, allow_inf_nan=False)
 
     name: str
     value: float | None
@@ -43,7 +43,7 @@ class Judged(BaseModel):
 class Line(BaseModel):
     """One line of a journal as read back; keys of later versions are passed over."""
 
-    model_config = ConfigDict(frozen=True)
+    model_config = ConfigDict(frozen=True, allow_inf_nan=False)
 
     seq: int
     stamp_s: float
@@ -54,7 +54,7 @@ class Line(BaseModel):
     lane: int | None = None
     rows: int | None = None
     evidence: tuple[Judged, ...] = ()
-    frame: dict[str, Any] | None = None
+    frame: dict[str, str | int | float | None] | None = None
     command: dict[str, float | None] | None = None
     reason: str = ""
 

@@ -4,6 +4,7 @@ from collections.abc import Iterable, Mapping
 
 from drivers.ports import Camera
 from fieldnav.messages import CameraName, Frame
+from fieldnav.mission.refusal import FUTURE_S
 
 
 class Eyes:
@@ -20,12 +21,18 @@ class Eyes:
             frame = self._cameras[name].latest(now_s)
             if frame is not None and frame is not self._newest.get(name):
                 self._newest[name] = frame
-                if now_s - frame.stamp_s <= self._stale_s:
+                if -FUTURE_S <= now_s - frame.stamp_s <= self._stale_s:
                     fresh[name] = frame
         return fresh
 
     def age_s(self, now_s: float, guides: Iterable[CameraName]) -> float | None:
-        """Age of the oldest of the newest frames that guide; 0 where none does, None before the first."""
+        """The worst age of the newest frames that guide; 0 where none does, None before the first.
+
+        A stamp in the future, a negative age, is worse than any old one.
+        """
         frames = [self._newest.get(name) for name in guides]
-        stamps = [frame.stamp_s for frame in frames if frame is not None]
-        return None if len(stamps) < len(frames) else now_s - min(stamps, default=now_s)
+        ages = [now_s - frame.stamp_s for frame in frames if frame is not None]
+        if len(ages) < len(frames):
+            return None
+        youngest = min(ages, default=0.0)
+        return youngest if youngest < -FUTURE_S else max(ages, default=0.0)

@@ -58,7 +58,12 @@ class Mission:
 
     def start(self, now_s: float) -> None:
         """Bring the wheels up and begin with the checks."""
-        self._wheels.start(now_s)
+        try:
+            self._wheels.start(now_s)
+        except DriverError as error:
+            self._go(now_s, Step(event=Event.START))
+            self.break_off(now_s, Event.LATCH, str(error))
+            return
         self._tell(now_s, self._go(now_s, Step(event=Event.START)), Step(), NOTHING_SENT)
 
     def tick(self, now_s: float) -> None:

@@ -1,7 +1,7 @@
 """The composition root of a simulated run: the same mission as on a robot, on a simulated field and bus."""
 
 import time
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from contextlib import ExitStack, suppress
 from dataclasses import dataclass
 from datetime import UTC, datetime
@@ -12,6 +12,7 @@ import cv2
 from drivers.can_log import LoggedBus, open_virtual_pair
 from drivers.simulated_modules import SimulatedModules
 from drivers.thorvald import ThorvaldWheels
+from drivers.wire_layout import check_nodes
 from fieldnav.errors import DriverError
 from fieldnav.evaluation.path import PathObserver
 from fieldnav.evaluation.truth import headland, judge
@@ -64,6 +65,7 @@ def simulate(run: Run, observers: Sequence[Observer] = ()) -> tuple[RunDirectory
     Raises FieldnavError for settings that do not fit, an unwritable folder, or a mission that does not end.
     """
     check_fit(run.crop, run.robot, run.field.lane_pitch_m)
+    check_nodes(run.robot)
     cv2.setNumThreads(1)
     plan = sow(run.field, run.crop, run.side)
     directory = RunDirectory.create(run.parent, run.field.name, datetime.now(UTC))
@@ -91,7 +93,7 @@ def simulate(run: Run, observers: Sequence[Observer] = ()) -> tuple[RunDirectory
         mission = Mission(run.robot, task, cameras, wheels, journal, watching)
         started = time.perf_counter()
         try:
-            _drive(mission, world.advance, run, started)
+            _drive(mission, bus, world, run, started)
         finally:
             _come_to_rest(wheels, world)
             wall_s = time.perf_counter() - started
@@ -111,7 +113,7 @@ def _come_to_rest(wheels: ThorvaldWheels, world: World) -> None:
             wheels.poll(world.now.stamp_s)
 
 
-def _drive(mission: Mission, advance: Callable[[float], None], run: Run, started: float) -> None:
+def _drive(mission: Mission, bus: LoggedBus, world: World, run: Run, started: float) -> None:
     """Tick until the mission is over; in real time no faster than the clock."""
     limit_s = run.lanes * (run.field.length_m / (SLOWEST * run.crop.speeds.follow_mps) + SWITCH_S)
     mission.start(0.0)
@@ -121,11 +123,13 @@ def _drive(mission: Mission, advance: Callable[[float], None], run: Run, started
         try:
             ticks += 1
             now_s = ticks * TICK_S
-            advance(now_s)
+            world.advance(now_s)
             mission.tick(now_s)
         except KeyboardInterrupt:
             mission.break_off(now_s, Event.FAIL, "interrupted by the operator")
             raise
+        if bus.failure is not None:
+            mission.break_off(now_s, Event.LATCH, bus.failure)
         if now_s > limit_s:
             mission.break_off(now_s, Event.FAIL, f"not ended within {limit_s:.0f} s of the robot's time")
         if run.realtime:

@@ -41,7 +41,7 @@ def field_structure(centres: Centres, finding: Finding, camera: Pinhole) -> Fiel
     """The moving variance (paper eq. 1) of the window lines' angles, its peaks and troughs by prominence."""
     lines = window_lines(centres, finding, camera)
     angle = np.degrees(np.arctan(-lines.slope))
-    variance = _moving_variance(angle, finding.neighbours)
+    variance = moving_variance(angle, finding.neighbours)
     peaks, troughs = _peaks_and_troughs(variance, finding.prominence_deg2)
     return FieldStructure(lines.bottom_px, angle, variance, lines.centres, peaks, troughs)
 
@@ -68,7 +68,7 @@ def rows_of(structure: FieldStructure, finding: Finding, camera: Pinhole) -> tup
     return tuple(sorted(rows, key=lambda row: row.x_top_px + row.x_bottom_px))
 
 
-def _moving_variance(angle: Floats, neighbours: int) -> Floats:
+def moving_variance(angle: Floats, neighbours: int) -> Floats:
     """Variance of the angles within `neighbours` / 2 places on either side; NaN where there is no angle."""
     half = neighbours // 2
     centred = slice(half, half + len(angle))  # of a full convolution, also where half is the longer

@@ -23,7 +23,17 @@ from fieldnav.settings.model import Settings
 from fieldnav.settings.problems import describe, nearest
 from fieldnav.settings.robot import Robot
 
-__all__ = ["Kind", "check_fit", "check_size", "load", "load_crop", "load_field", "load_robot", "names_of", "revised"]
+__all__ = [
+    "Kind",
+    "check_fit",
+    "check_size",
+    "load",
+    "load_crop",
+    "load_field",
+    "load_robot",
+    "names_of",
+    "revised",
+]
 
 MOST_PROBLEMS = 3
 """Problems of one file that are reported at once; a line of more is not read."""

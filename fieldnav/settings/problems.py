@@ -138,7 +138,9 @@ def _limits(found: Found) -> list[str]:
     }
     if "ge" in values and "le" in values:
         return [f"from {_plain(values['ge'])} to {_plain(values['le'])}"]
-    return [" and ".join(f"{_BOUNDS[name]} {_plain(value)}" for name, value in values.items())] if values else []
+    return (
+        [" and ".join(f"{_BOUNDS[name]} {_plain(value)}" for name, value in values.items())] if values else []
+    )
 
 
 def _plain(bound: float) -> str:

@@ -9,10 +9,10 @@ from fieldnav.messages import CameraName, Wheel
 from fieldnav.pinhole import Pinhole
 from fieldnav.settings.model import FileName, Settings
 
-
 HORIZON_MARGIN_DEG = 5.0
-"""Chosen: the image's upper edge looks at least so far below the horizon, at ground within 11 camera heights."""
+"""Chosen: the image's upper edge looks so far below the horizon, at ground within 11 camera heights."""
 STEEPEST_TILT_DEG = 90
+LARGEST_SIDE_PX = 8192
 
 
 class Geometry(Settings):
@@ -57,8 +57,8 @@ class CameraSettings(Settings):
     """One camera: its source and size, and where it sits."""
 
     source: str
-    width_px: int = Field(ge=64, le=8192)
-    height_px: int = Field(ge=48, le=8192)
+    width_px: int = Field(ge=64, le=LARGEST_SIDE_PX)
+    height_px: int = Field(ge=48, le=LARGEST_SIDE_PX)
     rate_hz: float = Field(gt=0, le=240)
     horizontal_fov_deg: float = Field(ge=10, le=150)
     height_m: float = Field(ge=0.2, le=5)

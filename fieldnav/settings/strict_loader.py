@@ -41,29 +41,24 @@ class StrictLoader(yaml.SafeLoader):
         self._depth = 0
 
     def compose_node(self, parent: yaml.Node | None, index: Any) -> yaml.Node | None:
-        """Refuse what cannot be refused later: sharing, tags, and nesting without end."""
-        event = self.peek_event()
-        if isinstance(event, yaml.AliasEvent):
-            raise RefusedError(
-                problem=f"allowed is no alias (*{event.anchor}){_WRITTEN_OUT}", problem_mark=event.start_mark
-            )
-        if getattr(event, "anchor", None) is not None:
-            raise RefusedError(
-                problem=f"allowed is no anchor (&{event.anchor}){_WRITTEN_OUT}", problem_mark=event.start_mark
-            )
-        if (tag := getattr(event, "tag", None)) is not None:
-            short = tag.replace("tag:yaml.org,2002:", "!!")
-            raise RefusedError(
-                problem=f"allowed is no tag ({short}); write the plain value", problem_mark=event.start_mark
-            )
+        """Refuse what is too late to refuse in the finished document."""
+        event = self.peek_event()  # type: ignore[no-untyped-call]  # yaml is typed in part
         self._depth += 1
-        if self._depth > DEEPEST_NESTING:
-            raise RefusedError(
-                problem=f"is nested more than {DEEPEST_NESTING} deep", problem_mark=event.start_mark
-            )
+        if problem := self._problem(event):
+            raise RefusedError(problem=problem, problem_mark=event.start_mark)
         node = super().compose_node(parent, index)
         self._depth -= 1
         return node
+
+    def _problem(self, event: Any) -> str:
+        anchor, tag = getattr(event, "anchor", None), getattr(event, "tag", None)
+        if isinstance(event, yaml.AliasEvent):
+            return f"allowed is no alias (*{anchor}){_WRITTEN_OUT}"
+        if anchor is not None:
+            return f"allowed is no anchor (&{anchor}){_WRITTEN_OUT}"
+        if tag is not None:
+            return f"allowed is no tag ({tag.replace('tag:yaml.org,2002:', '!!')}); write the plain value"
+        return f"is nested more than {DEEPEST_NESTING} deep" if self._depth > DEEPEST_NESTING else ""
 
     def construct_mapping(self, node: yaml.MappingNode, deep: bool = False) -> dict[Hashable, Any]:
         seen: set[Hashable] = set()
@@ -111,7 +106,9 @@ def _is_no_text(character: str) -> bool:
 
 
 for _name in ("str", "int", "float"):
-    StrictLoader.add_constructor(f"tag:yaml.org,2002:{_name}", getattr(StrictLoader, f"construct_yaml_{_name}"))
+    StrictLoader.add_constructor(
+        f"tag:yaml.org,2002:{_name}", getattr(StrictLoader, f"construct_yaml_{_name}")
+    )
 StrictLoader.add_implicit_resolver(
     # YAML 1.1, which the library follows, takes 5e-4 for text; nobody who writes it means that.
     "tag:yaml.org,2002:float",

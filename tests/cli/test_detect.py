@@ -2,6 +2,12 @@
 
 import json
 import re
+import resource
+import struct
+import subprocess
+import sys
+import zlib
+from importlib.resources import files
 from math import atan2, degrees
 from pathlib import Path
 
@@ -133,8 +139,8 @@ def test_the_bare_field_has_an_overlay_too(tmp_path: Path) -> None:
     ("content", "said"),
     [
         (None, "there is no such file"),
-        (b"", "is no picture; allowed is JPEG, PNG, TIFF, BMP or WebP"),
-        (b"name: sugar-beet\n", "is no picture; allowed is JPEG, PNG, TIFF, BMP or WebP"),
+        (b"", "is no whole picture; allowed is JPEG, PNG, TIFF, BMP or WebP"),
+        (b"name: sugar-beet\n", "is no whole picture; allowed is JPEG, PNG, TIFF, BMP or WebP"),
     ],
 )
 def test_what_is_no_picture_is_refused_before_anything_is_written(
@@ -149,6 +155,84 @@ def test_what_is_no_picture_is_refused_before_anything_is_written(
     line = error(capsys)
     assert str(wrong) in line and said in line
     assert not (tmp_path / "overlays").exists()
+
+
+def png(width_px: int, height_px: int, pixels: bytes = b"") -> bytes:
+    """A PNG file whose head claims this size, whatever it holds."""
+    head = struct.pack(">IIBBBBB", width_px, height_px, 8, 2, 0, 0, 0)
+    parts = ((b"IHDR", head), (b"IDAT", zlib.compress(pixels)), (b"IEND", b""))
+    made = (
+        struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
+        for kind, data in parts
+    )
+    return b"\x89PNG\r\n\x1a\n" + b"".join(made)
+
+
+def test_a_picture_that_claims_to_be_huge_is_refused_before_it_is_decoded(tmp_path: Path) -> None:
+    (tmp_path / "huge.png").write_bytes(png(100_000, 100_000))
+    (tmp_path / "large.png").write_bytes(png(30_000, 30_000))
+
+    for name in ("huge.png", "large.png"):
+        command = [sys.executable, "-m", "fieldnav", "detect", name]
+        ended = subprocess.run(
+            command, capture_output=True, text=True, check=False, cwd=tmp_path, preexec_fn=little_memory
+        )
+        assert (ended.returncode, ended.stdout) == (2, "")
+        assert ended.stderr == (
+            f"error: {name}: is no whole picture; allowed is JPEG, PNG, TIFF, BMP or WebP of at most 8192 px "
+            "a side\n"
+        )
+
+
+def little_memory() -> None:
+    resource.setrlimit(resource.RLIMIT_AS, (2 * 2**30, 2 * 2**30))
+
+
+def test_a_picture_that_is_cut_off_is_refused_in_one_line(
+    picture: Path, capfd: pytest.CaptureFixture[str]
+) -> None:
+    picture.write_bytes(picture.read_bytes()[:2000])
+
+    assert run(["detect", str(picture)]) == 2
+
+    captured = capfd.readouterr()
+    assert captured.out == ""
+    assert captured.err.startswith(f"error: {picture}: is no whole picture") and captured.err.count("\n") == 1
+
+
+def test_a_picture_so_tall_that_it_shows_the_horizon_is_refused(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    tall = tmp_path / "tall.png"
+    cv2.imwrite(str(tall), np.full((8000, 64, 3), LEAF_BGR, np.uint8))
+
+    assert run(["detect", str(tall)]) == 2
+
+    line = error(capsys)
+    assert f"{tall}: tilt_deg 65 with horizontal_fov_deg 69 at 64x8000 px looks at the horizon" in line
+
+
+def test_a_picture_is_named_as_it_was_typed(
+    picture: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.chdir(picture.parent)
+
+    assert run(["detect", "./field.png", "--json"]) == 0
+    assert objects(capsys)[0]["image"] == "./field.png"
+    assert run(["detect", "./none.png"]) == 2
+    assert error(capsys) == "error: ./none.png: there is no such file"
+
+
+def test_a_window_so_wide_that_it_has_few_places_finds_rows_or_none(
+    picture: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    crop = tmp_path / "mine.yaml"
+    text = (files("config") / "crops" / "sugar-beet.yaml").read_text(encoding="utf-8")
+    crop.write_text(f"{text}finding: {{ window: 0.5, stride: 0.1, neighbours: 100 }}\n")
+
+    assert run(["detect", str(picture), "--crop", str(crop), "--json"]) == 0
+
+    assert isinstance(objects(capsys)[0]["rows"], list)
 
 
 def test_a_folder_in_place_of_a_picture_is_refused(

@@ -1,16 +1,20 @@
 """`fieldnav log` tells a person in the field what happened and why."""
 
 import json
+import os
+import subprocess
+import sys
 from collections.abc import Callable
 from datetime import UTC, datetime
 from pathlib import Path
 
 import pytest
+from rich.text import Text
 
 from fieldnav.cli.app import run
-from fieldnav.cli.log_tables import decisive, judgement
+from fieldnav.cli.log_tables import decisive, judgement, transitions_table
 from fieldnav.journal.directory import RunDirectory
-from fieldnav.journal.entry import Entry, Judged
+from fieldnav.journal.entry import Entry, Judged, Line
 from fieldnav.journal.journal import Journal
 from fieldnav.journal.summary import Lanes, Summary, Switches, write_summary
 from fieldnav.messages import Evidence
@@ -113,6 +117,88 @@ def test_both_commands_print_json_for_programs(runs: Path, printed: Printed) -> 
     shown = json.loads(printed())
     assert [line["event"] for line in shown] == ["ready", "lane ended", "fail"]
     assert shown[1]["evidence"][0]["threshold"] == 0.4
+
+
+def test_what_looks_like_markup_is_shown_as_it_is(runs: Path, printed: Printed) -> None:
+    folder = runs / "[" / "a]"
+    journal = a_run(folder, "demo", completed=False).journal
+    journal.write_text(journal.read_text().replace("rear camera silent", "[/x] [red]silent[/red]"))
+    journal.parent.rename(folder / "[bold]run")
+
+    assert run(["log", "list", "--runs", str(folder)]) == 0
+    listed = printed()
+    assert "runs in " in listed and "/[/a]" in listed
+    assert "[bold]run" in listed and "Fault.Recoverable: [/x] [red]silent[/red]" in listed
+
+    assert run(["log", "show", "--runs", str(folder)]) == 0
+    shown = printed()
+    assert shown.startswith("[bold]run ") and shown.count("[/x] [red]silent[/red]") == 2
+
+
+def test_the_reason_stands_before_the_evidence_and_stands_out() -> None:
+    held = Judged(name="coasted", value=2.1, threshold=2.0, unit="m")
+    line = Line(
+        seq=0, stamp_s=1, utc=START, event="fail", source="A", target="B", evidence=(held,), reason="lost"
+    )
+
+    (because,) = transitions_table([line]).columns[-1].cells
+
+    assert isinstance(because, Text)
+    assert because.plain == "lost\ncoasted 2.1 > 2 m"
+    assert [(span.start, span.end, span.style) for span in because.spans] == [(0, len("lost"), "bold")]
+
+
+@pytest.mark.parametrize("number", ["1e400", "-1e400"])
+def test_a_journal_with_a_number_beyond_all_numbers_is_one_line(
+    number: str, runs: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    journal = a_run(runs, "demo", completed=False).journal
+    journal.write_text(journal.read_text().replace("85.43", number))
+
+    assert run(["log", "show"]) == 2
+    assert "journal.jsonl: line 2 is not a line of a journal" in capsys.readouterr().err
+    assert run(["log", "list"]) == 0
+    assert "unreadable" in capsys.readouterr().out
+
+
+def test_a_summary_with_a_number_beyond_all_numbers_is_shown(runs: Path, printed: Printed) -> None:
+    summary = a_run(runs, "demo", completed=True).summary
+    summary.write_text(summary.read_text().replace('"duration_s": 90.0', '"duration_s": 1e400'))
+
+    assert run(["log", "list"]) == 0
+    assert "unknown" in printed()
+
+
+def test_a_file_in_place_of_the_folder_of_runs_is_refused(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    (tmp_path / "file").touch()
+
+    assert run(["log", "list", "--runs", str(tmp_path / "file")]) == 2
+
+    captured = capsys.readouterr()
+    assert captured.out == "" and "Not a directory; allowed is a folder that holds runs" in captured.err
+
+
+@pytest.mark.skipif(not Path("/dev/full").exists(), reason="only Linux has a device that is always full")
+def test_a_full_disk_behind_standard_output_is_one_line(runs: Path) -> None:
+    a_run(runs, "demo", completed=True)
+    command = [sys.executable, "-m", "fieldnav", "log", "list", "--runs", str(runs)]
+
+    with Path("/dev/full").open("w") as full:
+        ended = subprocess.run(command, stdout=full, stderr=subprocess.PIPE, text=True, check=False)
+
+    assert ended.returncode == 2
+    assert ended.stderr == "error: standard output: cannot be written: No space left on device\n"
+
+
+def test_a_name_that_the_terminal_cannot_show_is_shown_in_escapes(runs: Path) -> None:
+    a_run(runs, "demo", completed=True).path.rename(runs / os.fsdecode(b"\xff"))
+    command = [sys.executable, "-m", "fieldnav", "log", "list", "--runs", str(runs)]
+
+    ended = subprocess.run(command, capture_output=True, text=True, check=False)
+
+    assert (ended.returncode, ended.stderr) == (0, "") and "\\udcff" in ended.stdout
 
 
 def test_no_runs_is_said_and_is_no_error(runs: Path, printed: Printed) -> None:

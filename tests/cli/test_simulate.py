@@ -61,10 +61,10 @@ def test_a_number_out_of_bounds(parent: Path, tmp_path: Path, capsys: pytest.Cap
 @pytest.mark.parametrize(
     ("option", "value", "said"),
     [
-        ("--lanes", "0", "lanes: 0 is not allowed; allowed is a whole number from 1 to 100"),
-        ("--length", "3.5", "length_m: 3.5 is not allowed; allowed is a number from 4 to 2000"),
-        ("--length", "nan", "length_m"),
-        ("--seed", "-1", "seed: -1 is not allowed"),
+        ("--lanes", "0", "error: --lanes: 0 is not allowed; allowed is a whole number from 1 to 100"),
+        ("--length", "3.5", "error: --length: 3.5 is not allowed; allowed is a number from 4 to 2000"),
+        ("--length", "nan", "error: --length: NaN is not allowed"),
+        ("--seed", "-1", "error: --seed: -1 is not allowed; allowed is a whole number from 0 to 2147483647"),
         ("--lanes", "few", "'--lanes'"),
         ("--side", "up", "'up' is not one of 'right', 'left'"),
     ],
@@ -105,3 +105,30 @@ def test_an_output_folder_that_cannot_be_written(tmp_path: Path, capsys: pytest.
 
     assert str(in_the_way / "runs") in line and "allowed is a folder you can write" in line
     assert in_the_way.read_text() == "not a folder"
+
+
+def test_a_field_of_millions_of_plants(parent: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    line = refused(["demo", "--lanes", "100", "--length", "2000"], parent, capsys)
+
+    assert "lanes 100 of length_m 2000 hold about 3933633 plants" in line and "at most 400000" in line
+
+
+def test_a_robot_whose_camera_sees_the_horizon(
+    parent: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    text = (files("config") / "robots" / "bonnbot.yaml").read_text(encoding="utf-8")
+    path = tmp_path / "mine.yaml"
+    path.write_text(text.replace("tilt_deg: 65", "tilt_deg: 20"))
+
+    line = refused(["demo", "--robot", str(path)], parent, capsys)
+
+    assert f"{path}: cameras.front: tilt_deg 20" in line and "allowed is at least 27" in line
+
+
+def test_a_name_too_long_for_a_folder(
+    parent: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    path = changed_field(tmp_path, "name: demo", f"name: {'d' * 300}")
+
+    assert f"{path}: name: 'ddd" in refused([path], parent, capsys)
+    assert "File name too long" in refused(["demo"], parent / ("x" * 300), capsys)

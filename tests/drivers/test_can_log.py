@@ -104,43 +104,50 @@ def test_the_log_is_on_the_disk_up_to_the_last_second_before_it_is_closed(tmp_pa
     far.shutdown()
 
 
-@pytest.mark.parametrize("frames", [1, 2000], ids=["at the first flush", "amid frames"])
-def test_a_log_that_cannot_be_written_lets_every_frame_pass_and_says_why(full_disk, frames):
+def beat(stamp_s):
+    return can.Message(timestamp=stamp_s, arbitration_id=0x77F, is_extended_id=False, data=[5])
+
+
+def fill(bus, full_disk):
+    """From now on the disk below the log of this bus is full."""
+    with full_disk.open("w") as full:
+        os.dup2(full.fileno(), bus._log.file.fileno())
+
+
+@pytest.mark.parametrize("stamps_s", [[1.1], [0.1] * 2000], ids=["at a flush", "as its buffer runs over"])
+def test_a_log_that_finds_no_room_lets_every_frame_pass_and_says_why(full_disk, tmp_path, stamps_s):
     host, far = open_virtual_pair()
-    bus = LoggedBus(host, full_disk, "can0")
+    bus = LoggedBus(host, tmp_path / "can.log", "can0")
+    bus.send(beat(0.0))
     assert bus.failure is None
+    fill(bus, full_disk)
 
-    for number in range(frames):
-        bus.send(can.Message(timestamp=number * 1e-4, arbitration_id=0x77F, is_extended_id=False, data=[5]))
-    far.send(can.Message(timestamp=1.0, arbitration_id=0x701, is_extended_id=False, data=[5]))
-    received = bus.recv(timeout=0)
+    for stamp_s in stamps_s:
+        bus.send(beat(stamp_s))
+    far.send(beat(2.0))
 
-    assert bus.failure == "full cannot be written: No space left on device"
-    assert received is not None
-    assert received.arbitration_id == 0x701
-    assert sum(1 for _ in iter(lambda: far.recv(timeout=0), None)) == frames
+    assert bus.recv(timeout=0) is not None
+    assert bus.failure == "can.log cannot be written: No space left on device"
+    assert sum(1 for _ in iter(lambda: far.recv(timeout=0), None)) == 1 + len(stamps_s)
+    assert (tmp_path / "can.log").read_text() == "(0.000000) can0 77F#05 T\n"
     bus.shutdown()
     far.shutdown()
 
 
 def test_a_log_whose_last_lines_find_no_room_closes_the_bus_and_says_why(full_disk, tmp_path):
     host, far = open_virtual_pair()
-    # The first frame is flushed to the disk that has room; the disk is full when the second is, at the end.
-    log = tmp_path / "can.log"
-    bus = LoggedBus(host, log, "can0")
-    bus.send(can.Message(timestamp=0.0, arbitration_id=0x77F, is_extended_id=False, data=[5]))
-    with full_disk.open("w") as full:
-        os.dup2(full.fileno(), bus._log.file.fileno())
-    bus.send(can.Message(timestamp=0.1, arbitration_id=0x77F, is_extended_id=False, data=[5]))
+    bus = LoggedBus(host, tmp_path / "can.log", "can0")
+    bus.send(beat(0.0))
+    fill(bus, full_disk)
+    bus.send(beat(0.1))
     assert bus.failure is None
 
     bus.shutdown()
     bus.shutdown()
 
     assert bus.failure == "can.log cannot be written: No space left on device"
-    assert log.read_text() == "(0.000000) can0 77F#05 T\n"
     with pytest.raises(can.CanError):
-        host.send(can.Message(arbitration_id=1, is_extended_id=False))
+        host.send(beat(0.2))
     far.shutdown()
 
 

@@ -55,6 +55,14 @@ def test_folders_made_on_the_way_are_removed_when_the_run_cannot_be_made(tmp_pat
     assert list(tmp_path.iterdir()) == []
 
 
+@pytest.mark.parametrize("folder", ["x" * 300, "a/" + "y" * 300 + "/b"])
+def test_a_folder_whose_name_is_too_long_is_one_line_and_nothing_is_left(tmp_path: Path, folder: str) -> None:
+    with pytest.raises(OutputError, match="File name too long; allowed is a folder you can write"):
+        RunDirectory.create(tmp_path / folder, "demo", START)
+
+    assert list(tmp_path.iterdir()) == []
+
+
 def test_the_kernels_own_folder_cannot_be_written() -> None:
     with pytest.raises(OutputError, match="allowed is a folder you can write"):
         RunDirectory.create(Path("/proc/fieldnav"), "demo", START)
@@ -84,6 +92,23 @@ def test_a_run_that_is_none_is_an_error(tmp_path: Path) -> None:
         find_run("maize", tmp_path)
     with pytest.raises(FieldnavError, match="holds no runs"):
         find_run("last", tmp_path / "nowhere")
+
+
+def test_a_name_too_long_for_a_run_is_an_error(tmp_path: Path) -> None:
+    run = run_in(tmp_path, "demo")
+
+    with pytest.raises(FieldnavError, match="no run 'x+' in"):
+        find_run("x" * 300, tmp_path)
+    with pytest.raises(FieldnavError, match="File name too long; allowed is a folder that holds runs"):
+        runs_in(tmp_path / ("x" * 300))
+    assert find_run(str(run.path), tmp_path / ("x" * 300)) == run
+
+
+def test_a_file_in_place_of_the_folder_of_runs_is_an_error(tmp_path: Path) -> None:
+    (tmp_path / "file").touch()
+
+    with pytest.raises(FieldnavError, match="file: cannot be read: Not a directory; allowed is a folder"):
+        runs_in(tmp_path / "file")
 
 
 def test_a_part_of_several_names_stands_for_the_newest(tmp_path: Path) -> None:

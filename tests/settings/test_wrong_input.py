@@ -110,7 +110,31 @@ CASES = {
         Kind.CROP,
         "per_lane: 3",
         "per_lane: !!python/object/apply:os.getpid []",
-        ["not valid YAML", "tag"],
+        ["line 13: allowed is no tag (!!python/object/apply:os.getpid); write the plain value"],
+    ),
+    "a name too long for a folder": (
+        Kind.CROP,
+        "name: sugar-beet",
+        f"name: {'x' * 300}",
+        ["name: 'xxx", "lower-case letters, digits and hyphens, at most 64"],
+    ),
+    "a camera that sees the horizon": (
+        Kind.ROBOT,
+        "tilt_deg: 65 # paper",
+        "tilt_deg: 20 # paper",
+        ["cameras.front: tilt_deg 20", "horizontal_fov_deg 69 at 1280x720 px", "allowed is at least 27"],
+    ),
+    "a picture so tall that it shows the horizon": (
+        Kind.ROBOT,
+        "height_px: 720 # paper",
+        "height_px: 8192 # paper",
+        ["cameras.front: tilt_deg 65", "at 1280x8192 px", "allowed is at least 83"],
+    ),
+    "a bound of many digits": (
+        Kind.FIELD,
+        "seed: 1",
+        "seed: -1",
+        ["seed: -1 is not allowed; allowed is a whole number from 0 to 2147483647"],
     ),
     "a misspelt wheel": (
         Kind.ROBOT,
@@ -192,6 +216,21 @@ def test_an_unknown_name_lists_the_known_ones_and_the_nearest() -> None:
     assert "winter-wheat" in line
 
 
+def test_a_path_is_named_as_it_was_typed(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "field.yaml").write_text(changed(Kind.FIELD, "crop: sugar-beet", "crop: ./beet.yaml"))
+
+    assert said(Kind.CROP, "./none.yaml") == "./none.yaml: there is no such file"
+    assert said(Kind.FIELD, "./field.yaml") == "./field.yaml: crop: ./beet.yaml: there is no such file"
+    assert said(Kind.FIELD, "field.yaml") == "field.yaml: crop: ./beet.yaml: there is no such file"
+
+
+def test_a_file_of_many_faults_is_judged_at_once(write: Write) -> None:
+    text = "".join(f"kye{number}: 1\n" for number in range(9000))
+
+    assert said(Kind.CROP, write(text)).startswith(f"{write(text)}: kye0: 1: there is no such key")
+
+
 def test_a_missing_file_a_folder_and_a_picture_are_named(tmp_path: Path) -> None:
     (tmp_path / "picture.yaml").write_bytes(b"\x89PNG\xff\xfe")
 
@@ -236,6 +275,8 @@ def test_options_are_checked_like_a_file() -> None:
         SettingsError, match="options: lanes: 0 is not allowed; allowed is a whole number from 1"
     ):
         revised(demo, {"lanes": 0})
+    with pytest.raises(SettingsError, match=r"^--length: 3 is not allowed"):
+        revised(demo, {"length_m": 3}, label="", called={"length_m": "--length"})
 
 
 def test_a_name_shared_by_kinds_stands_for_each_of_them() -> None:

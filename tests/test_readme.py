@@ -1,0 +1,76 @@
+"""The README tells the truth: every command in it runs, and its diagram is the machine's."""
+
+import re
+import shlex
+import shutil
+import subprocess
+from pathlib import Path
+
+import pytest
+
+from fieldnav.cli.app import run
+from states.diagram import mermaid
+
+ROOT = Path(__file__).parent.parent
+README = (ROOT / "README.md").read_text(encoding="utf-8")
+SHORT = {"--lanes": "1", "--length": "4"}
+"""Simulations are run as written, only on a shorter field."""
+
+
+def commands() -> list[list[str]]:
+    """Every command line in the README's shell blocks, comments left out."""
+    blocks = re.findall(r"```sh\n(.*?)```", README, re.DOTALL)
+    return [
+        line for line in (shlex.split(text, comments=True) for text in "".join(blocks).splitlines()) if line
+    ]
+
+
+def ours(program: str) -> list[list[str]]:
+    return [command[1:] for command in commands() if command[0] == program]
+
+
+def shortened(arguments: list[str]) -> list[str]:
+    """A simulation on a shorter field."""
+    kept = list(arguments)
+    for option, value in SHORT.items():
+        if option in kept:
+            kept[kept.index(option) + 1] = value
+        else:
+            kept += [option, value]
+    return kept
+
+
+def test_every_command_is_of_a_program_the_test_knows() -> None:
+    assert {command[0] for command in commands()} == {"make", "fieldnav"}
+
+
+@pytest.mark.parametrize("arguments", ours("make"), ids=" ".join)
+def test_make_targets_exist(arguments: list[str]) -> None:
+    done = subprocess.run(["make", "--dry-run", *arguments], cwd=ROOT, capture_output=True, check=False)
+    assert done.returncode == 0, done.stderr
+
+
+def test_every_fieldnav_command_runs_in_the_readmes_order(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    for folder in ("config", "docs"):
+        shutil.copytree(ROOT / folder, tmp_path / folder)
+    monkeypatch.chdir(tmp_path)
+    for arguments in ours("fieldnav"):
+        called = shortened(arguments) if arguments[0] == "simulate" else arguments
+        status = run(called)
+        said = capsys.readouterr()
+        assert status == 0, (arguments, said.err)
+        assert said.out.strip(), arguments
+
+
+def test_the_state_diagram_is_the_machines() -> None:
+    block = re.search(r"```mermaid\n(.*?)```", README, re.DOTALL)
+    assert block, "the README shows the states"
+    assert block.group(1).strip() == mermaid().strip()
+
+
+def test_every_picture_and_link_is_there() -> None:
+    for target in re.findall(r"\]\(([^)#]+)\)", README):
+        if "://" not in target:
+            assert (ROOT / target).exists(), target
