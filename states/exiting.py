@@ -73,7 +73,7 @@ class Exiting:
             return self._unguided(frame, centres, driven_m, whole_m)
         speed_mps = self._speed_mps(rows, centres, camera)
         line = feature(rows.rows, camera)
-        turn_rps = yaw_rate(line, camera, -speed_mps, crop.servoing)
+        turn_rps = yaw_rate(line, camera, -speed_mps, crop.servoing.leaving)
         behind = plants_in_rows(centres, rows.rows, crop, camera, ImagePart.BOTTOM)
         ended = self._end.add(behind > crop.row_end.least_plants, frame.stamp_s, seen.forward_m)
         evidence = (

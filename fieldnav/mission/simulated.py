@@ -27,7 +27,7 @@ from fieldnav.mission.pictures import OverlayObserver, draw_run
 from fieldnav.mission.tick import Observer
 from fieldnav.settings.crop import CropProfile
 from fieldnav.settings.field import FieldSettings
-from fieldnav.settings.fit import check_fit
+from fieldnav.settings.fit import check_fit, check_size
 from fieldnav.settings.robot import Robot
 from fieldnav.simulation.camera import SimulatedCamera
 from fieldnav.simulation.plan import sow
@@ -66,6 +66,7 @@ def simulate(run: Run, observers: Sequence[Observer] = ()) -> tuple[RunDirectory
     """
     check_fit(run.crop, run.robot, run.field.lane_pitch_m)
     check_nodes(run.robot)
+    check_size(run.field, run.crop)
     cv2.setNumThreads(1)
     plan = sow(run.field, run.crop, run.side)
     directory = RunDirectory.create(run.parent, run.field.name, datetime.now(UTC))

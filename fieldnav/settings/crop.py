@@ -132,7 +132,18 @@ class Servoing(Settings):
     """How fast the visual servoing (paper III-B) brings the robot onto the lane, per metre driven."""
 
     convergence_m: float = Field(default=0.7, ge=0.1, le=5, description="natural length of the closed loop")
+    exit_convergence_m: float = Field(
+        default=1.5,
+        ge=0.1,
+        le=5,
+        description="the same behind the trailing camera, where an error of angle counts five times as much",
+    )
     damping: float = Field(default=1.0, ge=0.3, le=3)
+
+    @property
+    def leaving(self) -> "Servoing":
+        """The servoing of the exit."""
+        return self.model_copy(update={"convergence_m": self.exit_convergence_m})
 
 
 class CropProfile(Settings):

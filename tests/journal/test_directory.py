@@ -97,7 +97,7 @@ def test_a_run_that_is_none_is_an_error(tmp_path: Path) -> None:
 def test_a_name_too_long_for_a_run_is_an_error(tmp_path: Path) -> None:
     run = run_in(tmp_path, "demo")
 
-    with pytest.raises(FieldnavError, match="no run 'x+' in"):
+    with pytest.raises(FieldnavError, match=r"no run 'x+' in"):
         find_run("x" * 300, tmp_path)
     with pytest.raises(FieldnavError, match="File name too long; allowed is a folder that holds runs"):
         runs_in(tmp_path / ("x" * 300))
