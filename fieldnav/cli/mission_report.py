@@ -52,12 +52,14 @@ def _missed(summary: Summary) -> int:
 
 def _against_truth(truth: Truth) -> Rows:
     track, heading = truth.cross_track_cm, truth.heading_deg
+    if track.mean is None:
+        errors = [("cross-track error", "unknown: nothing was driven within the rows")]
+    else:
+        off = f"{track.mean} +- {track.std} cm, 95 % within {track.p95}, at most {track.max}"
+        turned = f"{heading.mean} +- {heading.std} deg, at most {heading.max}"
+        errors = [("cross-track error", off), ("heading error", turned)]
     return [
-        (
-            "cross-track error",
-            f"{track.mean} +- {track.std} cm, 95 % within {track.p95}, at most {track.max}",
-        ),
-        ("heading error", f"{heading.mean} +- {heading.std} deg, at most {heading.max}"),
+        *errors,
         ("crop plants run over", str(truth.crop_plants_run_over)),
         ("lanes missed, repeated", f"{truth.lanes_missed}, {truth.lanes_repeated}"),
     ]

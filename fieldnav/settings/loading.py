@@ -20,7 +20,7 @@ from fieldnav.settings.field import FieldSettings
 from fieldnav.settings.fit import check_fit, check_size
 from fieldnav.settings.kinds import Kind, is_path, names_of
 from fieldnav.settings.model import Settings
-from fieldnav.settings.problems import describe, nearest
+from fieldnav.settings.problems import MOST_DESCRIBED, describe, nearest
 from fieldnav.settings.robot import Robot
 
 __all__ = [
@@ -92,7 +92,8 @@ def _checked(
         return model.model_validate_json(json.dumps(_plain(document)), strict=True)
     except ValidationError as error:
         lines = describe(error, model, called or {})
-        rest = f"; and {len(lines) - MOST_PROBLEMS} more" if len(lines) > MOST_PROBLEMS else ""
+        count = "" if error.error_count() > MOST_DESCRIBED else f" {len(lines) - MOST_PROBLEMS}"
+        rest = f"; and{count} more" if len(lines) > MOST_PROBLEMS else ""
         said = "; ".join(lines[:MOST_PROBLEMS]) + rest
         raise SettingsError(f"{label}: {said}" if label else said) from error
 

@@ -96,5 +96,17 @@ def test_a_finished_run_has_no_reason_but_its_missed_lanes(directory: RunDirecto
     assert lines["lanes missed, repeated"] == "1, 0"
 
 
+def test_a_run_that_never_drove_within_the_rows_has_no_errors_to_tell(directory: RunDirectory) -> None:
+    figures = summary(completed=False, missed=3)
+    nothing = CrossTrack(mean=None, std=None, p95=None, max=None)
+    assert figures.truth is not None
+    truth = figures.truth.model_copy(update={"cross_track_cm": nothing})
+
+    lines = printed(directory, figures.model_copy(update={"truth": truth}))
+
+    assert lines["cross-track error"] == "unknown: nothing was driven within the rows"
+    assert not any("None" in line for line in lines.values())
+
+
 def test_on_a_robot_nothing_is_said_of_what_nobody_knows(directory: RunDirectory) -> None:
     assert "cross-track error" not in printed(directory, summary(completed=True, missed=None))

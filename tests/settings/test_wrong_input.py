@@ -228,7 +228,9 @@ def test_a_path_is_named_as_it_was_typed(tmp_path: Path, monkeypatch: pytest.Mon
 def test_a_file_of_many_faults_is_judged_at_once(write: Write) -> None:
     text = "".join(f"kye{number}: 1\n" for number in range(9000))
 
-    assert said(Kind.CROP, write(text)).startswith(f"{write(text)}: kye0: 1: there is no such key")
+    line = said(Kind.CROP, write(text))
+
+    assert line.startswith(f"{write(text)}: kye0: 1: there is no such key") and line.endswith("; and more")
 
 
 def test_a_missing_file_a_folder_and_a_picture_are_named(tmp_path: Path) -> None:
