@@ -16,10 +16,8 @@ from fieldnav.perception.vegetation import find_plants
 from states.behaviour import Observation, Sight, Step, Task
 from states.memory import LaneMemory, SwitchMemory
 from states.names import Event
-from states.orienting import sideways
+from states.sideways import sideways, too_far, way
 
-HEADING_GAIN_PER_S = 0.5
-MOST_TURN_RPS = 0.05
 REFRESH_FRAMES = 3
 OVERRULING_FRAMES = 15
 """A row that stood beside the known ones for so long, 15 cm of the way, is new whatever it looks like."""
@@ -38,19 +36,17 @@ class CrossingRows:
         frame = seen.frames.get(self._direction.trailing)
         switch = self._lane.switch
         assert switch, "Orienting begins the switch"
-        moved_m = abs(seen.sideways_m - switch.started_m)
-        limit_m = self._task.crop.switching.longest_sidestep_m
-        if moved_m > limit_m:
-            evidence = (Evidence("moved sideways", moved_m, limit_m, "m"),)
+        moved = way(self._task, switch, seen)
+        if too_far(moved):
             return Step(
-                Motion(), Event.FAIL, evidence, reason="the next lane was not found within the sidestep"
+                Motion(), Event.FAIL, (moved,), reason="the next lane was not found within the sidestep"
             )
         if frame is None:
             return self._step.continued()
-        self._step = self._count(frame, switch, moved_m)
+        self._step = self._count(frame, switch, moved)
         return self._step
 
-    def _count(self, frame: Frame, switch: SwitchMemory, moved_m: float) -> Step:
+    def _count(self, frame: Frame, switch: SwitchMemory, moved: Evidence) -> Step:
         crop, camera = self._task.crop, self._task.cameras[frame.camera]
         centres, _ = find_plants(frame.image, crop.vegetation, camera)
         assert switch.crossing, "Sampling begins the crossing"
@@ -60,12 +56,11 @@ class CrossingRows:
         wanted = self._lane.rows or crop.rows.per_lane
         evidence = (
             Evidence("new rows passed", rows.passed, wanted, "rows"),
-            Evidence("moved sideways", moved_m, crop.switching.longest_sidestep_m, "m"),
+            moved,
             *evidence,
         )
         sight = Sight(frame, rows_in_image(rows, crop, camera), centres)
-        turn_rps = max(-MOST_TURN_RPS, min(MOST_TURN_RPS, HEADING_GAIN_PER_S * rows.slope))
-        motion = sideways(self._task, crop.speeds.sidestep_mps, turn_rps)
+        motion = sideways(self._task, crop.speeds.sidestep_mps, rows.slope)
         return Step(motion, Event.ROWS_CROSSED if rows.passed >= wanted else None, evidence, sight)
 
     def _recognise(

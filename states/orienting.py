@@ -1,18 +1,14 @@
 """Sidestep.Orienting: stop, then turn the wheels across before the robot moves (paper III-C)."""
 
-from fieldnav.messages import CameraName, Direction, Evidence, Motion, Steering, Twist
+from fieldnav.messages import CameraName, Direction, Evidence, Motion
 from states.behaviour import Observation, Step, Task
 from states.memory import LaneMemory, SwitchMemory
 from states.names import Event
+from states.sideways import sideways
 
 SETTLED_TICKS = 2
 LONGEST_S = 15.0
 """Stopping and a quarter turn of the slowest wheel take a few seconds."""
-
-
-def sideways(task: Task, speed_mps: float, yaw_rate_rps: float = 0.0, hold: bool = False) -> Motion:
-    """Motion towards the next lane's side."""
-    return Motion(Twist(0.0, task.side.sign * speed_mps, yaw_rate_rps), Steering.OMNIDIRECTIONAL, hold)
 
 
 class Orienting:

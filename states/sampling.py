@@ -8,7 +8,7 @@ from states.agreement import Agreement
 from states.behaviour import Observation, Sight, Step, Task
 from states.memory import LaneMemory
 from states.names import Event
-from states.orienting import sideways
+from states.sideways import sideways
 
 AGREEING_FRAMES = 3
 LONGEST_S = 3.0

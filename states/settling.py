@@ -8,11 +8,10 @@ from fieldnav.perception.vegetation import find_plants
 from states.behaviour import Observation, Sight, Step, Task
 from states.memory import LaneMemory, SwitchMemory
 from states.names import Event
-from states.orienting import sideways
+from states.sideways import sideways, too_far, way
 
 OFFSET_GAIN_PER_S = 0.8
-HEADING_GAIN_PER_S = 0.5
-MOST_TURN_RPS = 0.05
+"""What is left is halved in under a second. Our choice."""
 FRAMES_CENTRED = 5
 LONGEST_S = 40.0
 """Half a metre at a crawl, and to wait for five good frames in a row."""
@@ -32,25 +31,23 @@ class Settling:
         frame = seen.frames.get(self._direction.trailing)
         switch = self._lane.switch
         assert switch, "Orienting begins the switch"
-        moved_m = abs(seen.sideways_m - switch.started_m)
-        limit_m = self._task.crop.switching.longest_sidestep_m
+        moved = way(self._task, switch, seen)
         if self._entered_s is None:
             self._entered_s = seen.now_s
         taken_s = seen.now_s - self._entered_s
         if taken_s > LONGEST_S:
             evidence = (Evidence("settling takes", taken_s, LONGEST_S, "s"),)
             return Step(Motion(), Event.FAIL, evidence, reason="the new lane could not be centred in time")
-        if moved_m > limit_m:
-            evidence = (Evidence("moved sideways", moved_m, limit_m, "m"),)
+        if too_far(moved):
             return Step(
-                Motion(), Event.FAIL, evidence, reason="the new lane could not be centred in the sidestep"
+                Motion(), Event.FAIL, (moved,), reason="the new lane could not be centred in the sidestep"
             )
         if frame is None:
             return self._step.continued()
-        self._step = self._settle(frame, switch, moved_m)
+        self._step = self._settle(frame, switch, moved)
         return self._step
 
-    def _settle(self, frame: Frame, switch: SwitchMemory, moved_m: float) -> Step:
+    def _settle(self, frame: Frame, switch: SwitchMemory, moved: Evidence) -> Step:
         crop, camera = self._task.crop, self._task.cameras[frame.camera]
         centres, _ = find_plants(frame.image, crop.vegetation, camera)
         assert switch.crossing, "Sampling begins the crossing"
@@ -63,11 +60,10 @@ class Settling:
             Evidence("distance to the new lane's centre", offset_m, crop.switching.centred_m, "m"),
             Evidence("angle to the new lane", degrees(rows.slope), crop.switching.aligned_deg, "deg"),
             Evidence("frames centred", self._centred, FRAMES_CENTRED, "frames"),
-            Evidence("moved sideways", moved_m, crop.switching.longest_sidestep_m, "m"),
+            moved,
         )
         fastest = crop.speeds.sidestep_mps
         speed_mps = max(-fastest, min(fastest, OFFSET_GAIN_PER_S * offset_m))
-        turn_rps = max(-MOST_TURN_RPS, min(MOST_TURN_RPS, HEADING_GAIN_PER_S * rows.slope))
-        motion = sideways(self._task, speed_mps, turn_rps)
+        motion = sideways(self._task, speed_mps, rows.slope)
         event = Event.LANE_CENTRED if self._centred >= FRAMES_CENTRED else None
         return Step(motion, event, evidence, Sight(frame, rows_in_image(rows, crop, camera), centres))
