@@ -1,9 +1,8 @@
 """Follow.Coasting: rows lost for a moment; straight on, slowly and boundedly, until they are found again."""
 
 from fieldnav.messages import CameraName, Direction, Evidence, Motion, Twist
-from fieldnav.perception.parts import in_part
 from fieldnav.perception.perceive import find
-from fieldnav.perception.row_end import ImagePart
+from fieldnav.perception.row_end import ImagePart, crop_in_rows
 from fieldnav.perception.tracking import start
 from states.agreement import Agreement
 from states.behaviour import Observation, Sight, Step, Task
@@ -35,8 +34,10 @@ class Coasting:
         agreed = self._agreement.add(found.lane)
         coasted_m = abs(seen.forward_m - self._entered_m)
         limit_m = self._task.crop.row_end.longest_gap_m
-        ahead = len(in_part(found.centres, self._task.cameras[frame.camera], ImagePart.TOP))
-        ended = self._end.add(ahead > 0, frame.stamp_s, seen.forward_m)
+        crop, camera = self._task.crop, self._task.cameras[frame.camera]
+        held = self._lane.leading.rows if self._lane.leading else ()
+        ahead = crop_in_rows(found.centres, held, crop, camera, ImagePart.TOP) if held else 0.0
+        ended = self._end.add(ahead > crop.row_end.least_crop, frame.stamp_s, seen.forward_m)
         evidence = (
             self._agreement.evidence(),
             *self._end.evidence("top half"),

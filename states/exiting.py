@@ -9,7 +9,7 @@ from fieldnav.messages import CameraName, Centres, Direction, Evidence, Frame, M
 from fieldnav.perception.canopy import canopy_plane
 from fieldnav.perception.parts import in_part
 from fieldnav.perception.perceive import lane_of
-from fieldnav.perception.row_end import ImagePart, nearest_crop_m, plants_in_rows
+from fieldnav.perception.row_end import ImagePart, crop_in_rows, nearest_crop_m
 from fieldnav.perception.tracking import TrackedRows, feature, start, track
 from fieldnav.perception.vegetation import find_plants
 from fieldnav.pinhole import Pinhole
@@ -74,10 +74,10 @@ class Exiting:
         speed_mps = self._speed_mps(rows, centres, camera)
         line = feature(rows.rows, camera)
         turn_rps = yaw_rate(line, camera, -speed_mps, crop.servoing.leaving)
-        behind = plants_in_rows(centres, rows.rows, crop, camera, ImagePart.BOTTOM)
-        ended = self._end.add(behind > crop.row_end.least_plants, frame.stamp_s, seen.forward_m)
+        behind = crop_in_rows(centres, rows.rows, crop, camera, ImagePart.BOTTOM)
+        ended = self._end.add(behind > crop.row_end.least_crop, frame.stamp_s, seen.forward_m)
         evidence = (
-            Evidence("crop in the bottom half", behind, crop.row_end.least_plants, "plants"),
+            Evidence("crop in the bottom half", behind, crop.row_end.least_crop, "rows"),
             *self._end.evidence("bottom half"),
             Evidence("driven out", driven_m, whole_m / 2, "m"),
             Evidence("feature offset", line.offset_px, None, "px"),

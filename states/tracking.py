@@ -4,7 +4,7 @@ from math import degrees
 
 from fieldnav.control.servoing import yaw_rate
 from fieldnav.messages import CameraName, Direction, Evidence, Motion, Twist
-from fieldnav.perception.row_end import ImagePart, plants_in_rows
+from fieldnav.perception.row_end import ImagePart, crop_in_rows
 from fieldnav.perception.tracking import feature, track
 from fieldnav.perception.vegetation import find_plants
 from states.behaviour import Observation, Sight, Step, Task
@@ -39,12 +39,12 @@ class Tracking:
         turn_rps = yaw_rate(line, camera, speed_mps, crop.servoing)
         motion = Motion(Twist(vx_mps=self._direction.sign * speed_mps, yaw_rate_rps=turn_rps))
 
-        ahead = plants_in_rows(centres, rows.rows, crop, camera, ImagePart.TOP)
-        crop_ahead = ahead > crop.row_end.least_plants
+        ahead = crop_in_rows(centres, rows.rows, crop, camera, ImagePart.TOP)
+        crop_ahead = ahead > crop.row_end.least_crop
         ended = self._end.add(crop_ahead, frame.stamp_s, seen.forward_m)
         unseen_s = self._poorly_seen_s(rows.rows_seen, frame.stamp_s)
         evidence = (
-            Evidence("crop in the top half", ahead, crop.row_end.least_plants, "plants"),
+            Evidence("crop in the top half", ahead, crop.row_end.least_crop, "rows"),
             *self._end.evidence("top half"),
             Evidence("rows seen", rows.rows_seen, len(rows.rows) / 2, "rows"),
             Evidence("rows poorly seen for", unseen_s, LOST_S, "s"),

@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from fieldnav.messages import Centres, Floats, RowLine
+from fieldnav.messages import Floats, RowLine
 from fieldnav.pinhole import Pinhole
 from fieldnav.settings.crop import CropProfile
 
@@ -31,10 +31,3 @@ def half_width_px(y_px: Floats, crop: CropProfile, camera: Pinhole) -> Floats:
 def line_px(row: RowLine, y_px: Floats, camera: Pinhole) -> Floats:
     """Where a row's line lies at image rows."""
     return np.asarray(row.x_top_px + (row.x_bottom_px - row.x_top_px) * y_px / (camera.height_px - 1))
-
-
-def plant_area_m2(centres: Centres, plane: Pinhole) -> Floats:
-    """Area of each region on the canopy's plane; shape (n,)."""
-    across = plane.pixels_per_metre(centres.position_px[:, 1])
-    along = across * across * plane.height_m / plane.focal_px
-    return np.asarray(centres.area_px / (across * along))

@@ -10,7 +10,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from fieldnav.messages import Centres, RowLine
-from fieldnav.perception.canopy import canopy_plane, half_width_px, line_px, plant_area_m2
+from fieldnav.perception.canopy import canopy_plane, half_width_px, line_px
+from fieldnav.perception.ground_plants import on_ground
 from fieldnav.perception.passing import (
     SAME_ROW,
     SMALLEST_MASS,
@@ -84,7 +85,7 @@ def follow(crossing: Crossing, centres: Centres, crop: CropProfile, camera: Pinh
     plane = canopy_plane(camera, crop)
     ahead, left = plane.to_ground(centres.position_px).T
     ahead = ahead - _look_at_m(plane)
-    weight = np.minimum(plant_area_m2(centres, plane) / crop.plants.canopy_width_m**2, 1.0)
+    weight = on_ground(centres, crop, camera).weight
     across = crossing.outward * (left - crossing.slope * ahead)
     places = np.array([row.across_m for row in crossing.rows])
     for _ in range(ROUNDS):

@@ -12,8 +12,8 @@ MEMBER = 0.6
 """A plant belongs to a row within this share of the canopy's width."""
 WINDOW = 1.0
 """Width of the sliding window over the canopy's width."""
-ROW_MASS = 0.25
-"""Canopy in the window that makes a row, in squares of the canopy's width; most weeds have less."""
+ROW_MASS = 0.45
+"""Whole plants in the window that make a row; most weeds have a tenth of one."""
 SMALLEST_MASS = 1e-6
 
 

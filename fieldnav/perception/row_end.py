@@ -40,15 +40,22 @@ def centres_in_rows(
     return np.asarray(belongs)
 
 
-def plants_in_rows(
+def crop_in_rows(
     centres: Centres, rows: tuple[RowLine, ...], crop: CropProfile, camera: Pinhole, part: ImagePart
 ) -> float:
-    """How much crop stands in the rows in that part of the image, in whole plants.
+    """How much crop stands in the rows in that part of the image; 1 is one row without a gap.
 
     Each region counts by its area, so that small weeds in line with the rows do not pass for crop.
     """
     belongs = centres_in_rows(centres, rows, crop, camera, part)
-    return float(on_ground(centres, crop, camera).weight[belongs].sum())
+    plants = float(on_ground(centres, crop, camera).weight[belongs].sum())
+    edges = np.array([[camera.centre_x_px, 0.0], [camera.centre_x_px, camera.centre_y_px]])
+    far_m, middle_m = canopy_plane(camera, crop).to_ground(edges)[:, 0]
+    near_m, _ = canopy_plane(camera, crop).view_m
+    length_m = {ImagePart.TOP: far_m - middle_m, ImagePart.BOTTOM: middle_m - near_m}.get(
+        part, far_m - near_m
+    )
+    return plants * crop.plants.spacing_m / float(length_m)
 
 
 def crop_stretch_m(

@@ -86,8 +86,8 @@ class RowEnd(Settings):
         le=1,
         description="every centimetre more is less of the rows left to see and to count",
     )
-    least_plants: float = Field(
-        default=0.3, ge=0, le=10, description="crop in half a view, in whole plants, that is still a row"
+    least_crop: float = Field(
+        default=0.1, ge=0, le=5, description="crop in half a view that is still a row; 1 is one full row"
     )
     longest_gap_m: float = Field(
         default=2.0,
