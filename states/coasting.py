@@ -35,8 +35,8 @@ class Coasting:
         coasted_m = abs(seen.forward_m - self._entered_m)
         limit_m = self._task.crop.row_end.longest_gap_m
         crop, camera = self._task.crop, self._task.cameras[frame.camera]
-        held = self._lane.leading.rows if self._lane.leading else ()
-        ahead = crop_in_rows(found.centres, held, crop, camera, ImagePart.TOP) if held else 0.0
+        assert self._lane.leading, "the rows were followed before they were lost"
+        ahead = crop_in_rows(found.centres, self._lane.leading.rows, crop, camera, ImagePart.TOP)
         ended = self._end.add(ahead > crop.row_end.least_crop, frame.stamp_s, seen.forward_m)
         evidence = (
             self._agreement.evidence(),

@@ -153,25 +153,36 @@ def test_a_robot_that_stands_before_an_empty_view_has_not_reached_the_end(drawn:
 @DIRECTIONS
 def test_coasting_finds_the_rows_again(direction: Direction, drawn: SimpleNamespace) -> None:
     memory, situation = lane(drawn), drawn.situation()
-    memory.leading = None
+    before = memory.leading
     coasting = Coasting(drawn.task, direction, memory)
     images = {direction.leading: drawn.picture(drawn.crop, drawn.rows(drawn.crop))}
 
     step = drive(coasting, situation, images, 2.0)
 
-    assert step.event is Event.ROWS_FOUND and memory.leading is not None
+    assert step.event is Event.ROWS_FOUND
+    assert memory.leading is not before
 
 
-def test_coasting_among_weeds_gives_up_after_the_longest_gap(drawn: SimpleNamespace) -> None:
+def test_coasting_with_crop_ahead_but_no_lane_gives_up_after_the_longest_gap(drawn: SimpleNamespace) -> None:
     situation = drawn.situation()
     coasting = Coasting(drawn.task, Direction.FORWARD, lane(drawn))
-    weed = {CameraName.FRONT: drawn.picture(drawn.crop, np.array([[1.7, 0.2]]))}
+    one_plant = {CameraName.FRONT: drawn.picture(drawn.crop, np.array([[1.5, drawn.crop.rows.spacing_m]]))}
 
-    step = drive(coasting, situation, weed, 60.0)
+    step = drive(coasting, situation, one_plant, 60.0)
 
     assert step.event is Event.FAIL and "longest gap" in step.reason
     gap_m = drawn.crop.row_end.longest_gap_m
     assert gap_m < situation.forward_m < gap_m + 0.1
+
+
+def test_weeds_between_the_rows_do_not_hide_the_end_from_coasting(drawn: SimpleNamespace) -> None:
+    situation = drawn.situation()
+    coasting = Coasting(drawn.task, Direction.FORWARD, lane(drawn))
+    between = {CameraName.FRONT: drawn.picture(drawn.crop, np.array([[1.5, drawn.crop.rows.spacing_m / 2]]))}
+
+    step = drive(coasting, situation, between, 60.0)
+
+    assert step.event is Event.LANE_ENDED
 
 
 @DIRECTIONS
