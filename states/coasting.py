@@ -1,8 +1,9 @@
 """Follow.Coasting: rows lost for a moment; straight on, slowly and boundedly, until they are found again."""
 
 from fieldnav.messages import CameraName, Direction, Evidence, Motion, Twist
+from fieldnav.perception.parts import ImagePart
 from fieldnav.perception.perceive import find
-from fieldnav.perception.row_end import ImagePart, crop_in_rows
+from fieldnav.perception.row_end import crop_in_rows
 from fieldnav.perception.tracking import start
 from states.agreement import Agreement
 from states.behaviour import Observation, Sight, Step, Task

@@ -7,9 +7,9 @@ import numpy as np
 from fieldnav.control.servoing import yaw_rate
 from fieldnav.messages import CameraName, Centres, Direction, Evidence, Frame, Motion, Twist
 from fieldnav.perception.canopy import canopy_plane
-from fieldnav.perception.parts import in_part
+from fieldnav.perception.parts import ImagePart, in_part
 from fieldnav.perception.perceive import lane_of
-from fieldnav.perception.row_end import ImagePart, crop_in_rows, nearest_crop_m
+from fieldnav.perception.row_end import crop_in_rows, nearest_crop_m
 from fieldnav.perception.tracking import TrackedRows, feature, start, track
 from fieldnav.perception.vegetation import find_plants
 from fieldnav.pinhole import Pinhole

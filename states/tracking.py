@@ -4,7 +4,8 @@ from math import degrees
 
 from fieldnav.control.servoing import yaw_rate
 from fieldnav.messages import CameraName, Direction, Evidence, Motion, Twist
-from fieldnav.perception.row_end import ImagePart, crop_in_rows
+from fieldnav.perception.parts import ImagePart
+from fieldnav.perception.row_end import crop_in_rows
 from fieldnav.perception.tracking import feature, track
 from fieldnav.perception.vegetation import find_plants
 from states.behaviour import Observation, Sight, Step, Task

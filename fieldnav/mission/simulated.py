@@ -120,10 +120,9 @@ def _drive(mission: Mission, bus: LoggedBus, world: World, run: Run, started: fl
     mission.start(0.0)
     ticks = 0
     while not mission.over:
+        ticks += 1
         now_s = ticks * TICK_S
         try:
-            ticks += 1
-            now_s = ticks * TICK_S
             world.advance(now_s)
             mission.tick(now_s)
         except KeyboardInterrupt:

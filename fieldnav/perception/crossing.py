@@ -83,9 +83,9 @@ def begin(rows: tuple[RowLine, ...], outward: int, crop: CropProfile, camera: Pi
 def follow(crossing: Crossing, centres: Centres, crop: CropProfile, camera: Pinhole) -> Crossing:
     """Carry the rows along with the plants of a new frame, and look for a row beyond the outermost."""
     plane = canopy_plane(camera, crop)
-    ahead, left = plane.to_ground(centres.position_px).T
-    ahead = ahead - _look_at_m(plane)
-    weight = on_ground(centres, crop, camera).weight
+    plants = on_ground(centres, crop, camera)
+    ahead, left = plants.position_m.T
+    ahead, weight = ahead - _look_at_m(plane), plants.weight
     across = crossing.outward * (left - crossing.slope * ahead)
     places = np.array([row.across_m for row in crossing.rows])
     for _ in range(ROUNDS):

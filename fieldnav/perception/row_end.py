@@ -1,7 +1,5 @@
 """Which plants belong to the lane's rows, and how far ahead the rows reach (paper III-A.3)."""
 
-from enum import Enum
-
 import numpy as np
 from numpy.typing import NDArray
 
@@ -10,16 +8,9 @@ from fieldnav.perception.canopy import canopy_plane
 from fieldnav.perception.comb_fit import members
 from fieldnav.perception.follow import comb_of, widest_m
 from fieldnav.perception.ground_plants import on_ground
+from fieldnav.perception.parts import ImagePart, lies_in
 from fieldnav.pinhole import Pinhole
 from fieldnav.settings.crop import CropProfile
-
-
-class ImagePart(Enum):
-    """A part of the image: the far half, the near half, or all of it."""
-
-    TOP = "top"
-    BOTTOM = "bottom"
-    WHOLE = "whole"
 
 
 def centres_in_rows(
@@ -32,12 +23,7 @@ def centres_in_rows(
     """Which plants have their centre in a row's parallelogram and in that part of the image; shape (n,)."""
     comb = comb_of(rows, crop, canopy_plane(camera, crop))
     belongs = members(comb, on_ground(centres, crop, camera), widest_m(crop)) >= 0
-    y = centres.position_px[:, 1]
-    if part is ImagePart.TOP:
-        return np.asarray(belongs & (y < camera.centre_y_px))
-    if part is ImagePart.BOTTOM:
-        return np.asarray(belongs & (y >= camera.centre_y_px))
-    return np.asarray(belongs)
+    return np.asarray(belongs & lies_in(centres, camera, part))
 
 
 def crop_in_rows(
