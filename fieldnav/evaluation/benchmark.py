@@ -1,0 +1,54 @@
+"""What a benchmark measures and reports: one row a figure, beside its goal and the best value known."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from enum import Enum
+from pathlib import Path
+
+
+class Better(Enum):
+    """Which way a figure is good."""
+
+    HIGHER = "higher"
+    LOWER = "lower"
+
+
+@dataclass(frozen=True, slots=True)
+class Figure:
+    """One figure measured in this run.
+
+    case: the field, crop or set; metric: its name with the unit; source: where `best_known` comes from.
+    """
+
+    case: str
+    metric: str
+    value: float
+    std: float | None = None
+    goal: float | None = None
+    best_known: float | None = None
+    source: str = ""
+    better: Better = Better.HIGHER
+
+    @property
+    def met(self) -> bool | None:
+        """Whether the goal is reached; None for a figure without one."""
+        if self.goal is None:
+            return None
+        return self.value >= self.goal if self.better is Better.HIGHER else self.value <= self.goal
+
+
+@dataclass(frozen=True, slots=True)
+class Plan:
+    """How a benchmark is to run.
+
+    data: the folder with the photographs, None where they are absent; quick: under a minute, for CI;
+    seed: where drawn conditions begin.
+    """
+
+    data: Path | None
+    quick: bool
+    seed: int = 1
+
+
+Progress = Callable[[str, int, int], None]
+"""Told the part at work, how many of its steps are done, and how many there are."""
