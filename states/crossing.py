@@ -11,8 +11,8 @@ from fieldnav.perception.crossing import (
     outermost_row,
     rows_in_image,
 )
+from fieldnav.perception.plants import find_plants
 from fieldnav.perception.recognition import describe, distance
-from fieldnav.perception.vegetation import find_plants
 from states.behaviour import Observation, Sight, Step, Task
 from states.memory import LaneMemory, SwitchMemory
 from states.names import Event
@@ -48,7 +48,7 @@ class CrossingRows:
 
     def _count(self, frame: Frame, switch: SwitchMemory, moved: Evidence) -> Step:
         crop, camera = self._task.crop, self._task.cameras[frame.camera]
-        centres, _ = find_plants(frame.image, crop.vegetation, camera)
+        centres = find_plants(frame.image, crop.vegetation, camera)
         assert switch.crossing, "Sampling begins the crossing"
         rows = follow(switch.crossing, centres, crop, camera)
         rows, evidence = self._recognise(frame, rows, switch)

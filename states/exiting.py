@@ -7,11 +7,12 @@ import numpy as np
 from fieldnav.control.servoing import yaw_rate
 from fieldnav.messages import CameraName, Centres, Direction, Evidence, Frame, Motion, Twist
 from fieldnav.perception.canopy import canopy_plane
-from fieldnav.perception.parts import ImagePart, in_part
+from fieldnav.perception.parts import ImagePart
 from fieldnav.perception.perceive import lane_of
+from fieldnav.perception.plants import plants_in
 from fieldnav.perception.row_end import crop_in_rows, nearest_crop_m
 from fieldnav.perception.tracking import TrackedRows, feature, start, track
-from fieldnav.perception.vegetation import find_plants
+from fieldnav.perception.vegetation import Cover, vegetation_of
 from fieldnav.pinhole import Pinhole
 from states.agreement import Agreement
 from states.behaviour import Observation, Sight, Step, Task
@@ -58,15 +59,17 @@ class Exiting:
 
     def _rows_again(self, frame: Frame) -> bool:
         camera = self._task.cameras[frame.camera]
-        centres, _ = find_plants(frame.image, self._task.crop.vegetation, camera)
-        lane = lane_of(in_part(centres, camera, ImagePart.TOP), self._task.crop, camera)
+        crop = self._task.crop
+        ahead = vegetation_of(frame.image, crop.vegetation).part(ImagePart.TOP)
+        lane = lane_of(ahead, plants_in(ahead, crop.vegetation, camera), crop, camera)
         enough = lane is not None and 2 * lane.rows_seen > self._task.crop.rows.per_lane
         return self._again.add(lane if enough else None)
 
     def _guided(self, frame: Frame, seen: Observation, driven_m: float) -> Step:
         crop, camera = self._task.crop, self._task.cameras[frame.camera]
-        centres, _ = find_plants(frame.image, crop.vegetation, camera)
-        rows = self._follow(centres, frame.stamp_s, camera)
+        cover = vegetation_of(frame.image, crop.vegetation)
+        centres = plants_in(cover, crop.vegetation, camera)
+        rows = self._follow(cover, centres, frame.stamp_s, camera)
         # From where the leading view's middle meets the last plants to where the trailing view's does.
         whole_m = sum(camera.view_m)
         if rows is None:
@@ -105,12 +108,12 @@ class Exiting:
             return Step(Motion(), Event.FAIL, evidence, sight, "no rows behind to leave by")
         return Step(self._ahead(0.0, self._task.crop.speeds.exit_mps), None, evidence, sight)
 
-    def _follow(self, centres: Centres, stamp_s: float, camera: Pinhole) -> TrackedRows | None:
+    def _follow(self, cover: Cover, centres: Centres, stamp_s: float, camera: Pinhole) -> TrackedRows | None:
         crop = self._task.crop
         if self._lane.trailing is not None:
             self._lane.trailing = track(self._lane.trailing, centres, stamp_s, crop, camera)
             return self._lane.trailing
-        lane = lane_of(centres, crop, camera)
+        lane = lane_of(cover, centres, crop, camera)
         if self._found.add(lane) and lane:
             self._lane.trailing = start(lane, stamp_s)
         return self._lane.trailing

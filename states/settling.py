@@ -4,7 +4,7 @@ from math import degrees, radians
 
 from fieldnav.messages import CameraName, Direction, Evidence, Frame, Motion
 from fieldnav.perception.crossing import follow, new_lane_m, rows_in_image
-from fieldnav.perception.vegetation import find_plants
+from fieldnav.perception.plants import find_plants
 from states.behaviour import Observation, Sight, Step, Task
 from states.memory import LaneMemory, SwitchMemory
 from states.names import Event
@@ -49,7 +49,7 @@ class Settling:
 
     def _settle(self, frame: Frame, switch: SwitchMemory, moved: Evidence) -> Step:
         crop, camera = self._task.crop, self._task.cameras[frame.camera]
-        centres, _ = find_plants(frame.image, crop.vegetation, camera)
+        centres = find_plants(frame.image, crop.vegetation, camera)
         assert switch.crossing, "Sampling begins the crossing"
         rows = switch.crossing = follow(switch.crossing, centres, crop, camera)
         offset_m = new_lane_m(rows, crop)

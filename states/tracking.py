@@ -5,9 +5,9 @@ from math import degrees
 from fieldnav.control.servoing import yaw_rate
 from fieldnav.messages import CameraName, Direction, Evidence, Motion, Twist
 from fieldnav.perception.parts import ImagePart
+from fieldnav.perception.plants import find_plants
 from fieldnav.perception.row_end import crop_in_rows
 from fieldnav.perception.tracking import feature, track
-from fieldnav.perception.vegetation import find_plants
 from states.behaviour import Observation, Sight, Step, Task
 from states.emptiness import Emptiness
 from states.memory import LaneMemory
@@ -33,7 +33,7 @@ class Tracking:
             return self._step.continued()
         crop, camera = self._task.crop, self._task.cameras[frame.camera]
         assert self._lane.leading, "Acquiring hands over the rows"
-        centres, _ = find_plants(frame.image, crop.vegetation, camera)
+        centres = find_plants(frame.image, crop.vegetation, camera)
         rows = self._lane.leading = track(self._lane.leading, centres, frame.stamp_s, crop, camera)
         line = feature(rows.rows, camera)
         speed_mps = crop.speeds.follow_mps

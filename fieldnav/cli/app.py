@@ -9,6 +9,8 @@ from typing import Annotated
 import typer
 
 from fieldnav import __version__
+from fieldnav.cli.bench import bench
+from fieldnav.cli.check import check
 from fieldnav.cli.console import FAILED, print_error
 from fieldnav.cli.detect import detect
 from fieldnav.cli.diagram import diagram
@@ -52,7 +54,9 @@ def fieldnav(
 
 app.command()(simulate)
 app.command()(detect)
+app.command()(check)
 app.add_typer(log)
+app.add_typer(bench)
 app.add_typer(profiles)
 app.command()(diagram)
 

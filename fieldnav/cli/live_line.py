@@ -22,12 +22,14 @@ class LiveLine:
         self._drawn = 0.0
         self._distance_m = 0.0
         self._at = (0.0, 0.0)
+        self._warning = ""
 
     def watch(self, tick: Tick) -> None:
         """Take in a tick; draws when the state has changed or the last drawing is old enough."""
         at = (tick.forward_m, tick.sideways_m)
         self._distance_m += abs(at[0] - self._at[0]) + abs(at[1] - self._at[1])
         self._at = at
+        self._warning = tick.warning or self._warning
         wall = time.perf_counter()
         if wall - self._drawn < REDRAW_S and tick.change is None:
             return
@@ -38,5 +40,6 @@ class LiveLine:
             f"lane {tick.lane}/{self._lanes}  rows {tick.rows}  {self._distance_m:6.1f} m  ",
             f"{abs(twist.vx_mps) + abs(twist.vy_mps):.2f} m/s  {tick.now_s:6.1f} s  ",
             f"{tick.now_s / (wall - self._started):.1f} x real time",
+            (f"  {self._warning}", "yellow"),
         )
         self._live.update(line, refresh=True)

@@ -22,6 +22,7 @@ def report(directory: RunDirectory, summary: Summary) -> Table:
         ("speed of simulation", f"{summary.realtime_factor:.1f} x real time, {summary.wall_s:.0f} s"),
         ("switches", f"{summary.switches.succeeded} of {summary.switches.attempted}"),
         ("faults", str(summary.faults)),
+        *(("warning", warning) for warning in summary.warnings),
     ]
     used = summary.headland_m
     if used.mean is not None:

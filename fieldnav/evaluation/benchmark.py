@@ -42,12 +42,29 @@ class Plan:
     """How a benchmark is to run.
 
     data: the folder with the photographs, None where they are absent; quick: under a minute, for CI;
-    seed: where drawn conditions begin.
+    seed: where drawn conditions begin; plots: the folder that pictures are drawn into, None for none.
     """
 
     data: Path | None
     quick: bool
     seed: int = 1
+    plots: Path | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class LeftOut:
+    """A part of a benchmark that could not be measured, and why."""
+
+    part: str
+    reason: str
+
+
+@dataclass(frozen=True, slots=True)
+class Report:
+    """Everything that one benchmark measured, and what it left out."""
+
+    figures: tuple[Figure, ...]
+    left_out: tuple[LeftOut, ...] = ()
 
 
 Progress = Callable[[str, int, int], None]

@@ -59,7 +59,7 @@ class Truth(_Figures):
 
 
 class Summary(_Figures):
-    """A run's figures; `truth` in simulation only."""
+    """A run's figures; `truth` in simulation only, `warnings` where there are any."""
 
     completed: bool
     lanes: Lanes
@@ -71,12 +71,13 @@ class Summary(_Figures):
     faults: int
     switches: Switches
     headland_m: Headland = Headland()
+    warnings: tuple[str, ...] = ()
     truth: Truth | None = None
 
 
 def to_json(summary: Summary) -> str:
-    """A summary as indented JSON; `truth` is left out where there is none."""
-    exclude = {"truth"} if summary.truth is None else None
+    """A summary as indented JSON; `truth` and `warnings` are left out where there are none."""
+    exclude = {name for name in ("truth", "warnings") if not getattr(summary, name)}
     return summary.model_dump_json(indent=2, exclude=exclude)
 
 

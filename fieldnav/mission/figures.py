@@ -21,12 +21,15 @@ class Figures:
         self._started_s: float | None = None
         self._now_s = 0.0
         self._finished = False
+        self._warnings: list[str] = []
 
     def watch(self, tick: Tick) -> None:
         if self._started_s is None:
             self._started_s = tick.now_s
         self._now_s = tick.now_s
         self._path.append((tick.forward_m, tick.sideways_m))
+        if tick.warning:
+            self._warnings.append(tick.warning)
         if tick.change is not None:
             self._events[tick.change.event] += 1
             self._finished = tick.change.target == FINISHED
@@ -47,5 +50,6 @@ class Figures:
             faults=events[Event.FAIL] + events[Event.LATCH],
             switches=Switches(attempted=events[Event.LANE_LEFT], succeeded=events[Event.LANE_CENTRED]),
             headland_m=headland,
+            warnings=tuple(self._warnings),
             truth=truth,
         )

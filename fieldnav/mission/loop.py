@@ -7,6 +7,7 @@ from fieldnav.errors import DriverError, FieldnavError
 from fieldnav.journal.entry import Entry
 from fieldnav.journal.journal import Journal
 from fieldnav.messages import STANDSTILL, CameraName, Frame, Motion, WheelReport
+from fieldnav.mission.camera_watch import CameraWatch
 from fieldnav.mission.eyes import Eyes
 from fieldnav.mission.gate import Gate, Passed
 from fieldnav.mission.progress import Progress
@@ -42,6 +43,7 @@ class Mission:
         self._observers = list(observers)
         self._gate, self._travel, self._progress = Gate(wheels, robot), Travel(robot), Progress()
         self._eyes = Eyes(cameras, robot.timeouts.frame_s)
+        self._camera_watch = CameraWatch(task, robot.camera_limits)
         self.machine = MissionMachine()
         self.behaviours = Behaviours(task)
         self._report = WheelReport()
@@ -99,6 +101,7 @@ class Mission:
         guides = self.behaviours.current.cameras
         frames = self._eyes.look(now_s, guides)
         step = self.behaviours.current.step(self._observe(now_s, frames))
+        warning = self._note_knocked(now_s, step)
         change = self._go(now_s, step) if step.event is not None else None
         moving = self.machine.leaf in LANE_LEAVES
         motion = step.motion if moving else Motion()
@@ -107,7 +110,7 @@ class Mission:
         complaint = self._progress.complaint(now_s, passed, self._travel.standing)
         if complaint and change is None and moving:
             change = self._go(now_s, Step(event=Event.FAIL, reason=complaint))
-        self._tell(now_s, change, step, passed)
+        self._tell(now_s, change, step, passed, warning)
 
     def _observe(self, now_s: float, frames: Mapping[CameraName, Frame]) -> Observation:
         return Observation(
@@ -137,6 +140,15 @@ class Mission:
             self._held_in = leaf
             self._record(now_s, "held by the gate", leaf, leaf, Step(reason=passed.reason))
 
+    def _note_knocked(self, now_s: float, step: Step) -> str:
+        """Write down, once a camera, that the rows show it knocked away; the state stays as it is."""
+        leaf = self.machine.leaf
+        found = self._camera_watch.complaint(leaf, step, self._travel.forward_m)
+        if found is None:
+            return ""
+        self._record(now_s, "camera knocked", leaf, leaf, found)
+        return found.reason
+
     def _record(self, now_s: float, event: str, source: Path, target: Path, step: Step) -> None:
         lane = self.behaviours.lane
         entry = Entry(
@@ -153,7 +165,9 @@ class Mission:
         )
         self._journal.record(entry)
 
-    def _tell(self, now_s: float, change: Change | None, step: Step, passed: Passed) -> None:
+    def _tell(
+        self, now_s: float, change: Change | None, step: Step, passed: Passed, warning: str = ""
+    ) -> None:
         lane = self.behaviours.lane
         tick = Tick(
             now_s=now_s,
@@ -166,6 +180,7 @@ class Mission:
             rows_passed=lane.rows_passed,
             forward_m=self._travel.forward_m,
             sideways_m=self._travel.sideways_m,
+            warning=warning,
         )
         for observer in tuple(self._observers):
             try:

@@ -11,7 +11,7 @@ from states.names import Path
 
 @dataclass(frozen=True, slots=True)
 class Tick:
-    """What happened in one tick, for those who watch."""
+    """What happened in one tick, for those who watch; `warning` is what a person should know from it on."""
 
     now_s: float
     state: Path
@@ -23,6 +23,7 @@ class Tick:
     rows_passed: int
     forward_m: float
     sideways_m: float
+    warning: str = ""
 
 
 class Observer(Protocol):

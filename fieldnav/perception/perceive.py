@@ -2,12 +2,13 @@
 
 from dataclasses import dataclass
 
-from fieldnav.messages import Centres, Image, RowLine
+from fieldnav.messages import Centres, Floats, Image, RowLine
+from fieldnav.perception.finders import Found, find_rows
 from fieldnav.perception.ground_plants import on_ground
 from fieldnav.perception.lane import LaneFit, lane_rows
-from fieldnav.perception.moving_variance import FieldStructure, field_structure, find_rows, rows_of
-from fieldnav.perception.settle import settle, settle_lines
-from fieldnav.perception.vegetation import Mask, find_plants
+from fieldnav.perception.plants import plants_in
+from fieldnav.perception.settle import settle
+from fieldnav.perception.vegetation import Cover, vegetation_of
 from fieldnav.pinhole import Pinhole
 from fieldnav.settings.crop import CropProfile
 
@@ -16,33 +17,52 @@ from fieldnav.settings.crop import CropProfile
 class View:
     """What one frame shows.
 
-    centres and mask: the plants; structure: the field-structure signal; lines: every row it shows, left to
-    right, fitted once more to the plants along it; lane: the rows under the robot, fitted likewise, None when
-    there are none.
+    cover and centres: its vegetation and the plants; lines: every row it shows, left to right; paths_px: the
+    same rows as curves, shape (rows, points, 2), x and y from the upper edge to the lower; lane: the rows under
+    the robot, None when there are none.
     """
 
+    cover: Cover
     centres: Centres
-    mask: Mask
-    structure: FieldStructure
     lines: tuple[RowLine, ...]
+    paths_px: Floats
     lane: LaneFit | None
 
 
-def find(image: Image, crop: CropProfile, camera: Pinhole, widest_offset_m: float | None = None) -> View:
-    """Find the rows of a frame without knowing any before; see `lane_rows` for `widest_offset_m`."""
-    centres, mask = find_plants(image, crop.vegetation, camera)
-    structure = field_structure(centres, crop.finding, camera)
-    lines = rows_of(structure, crop.finding, camera)
-    plants = on_ground(centres, crop, camera)
-    lane = settle(lane_rows(lines, crop, camera, widest_offset_m), plants, crop, camera, widest_offset_m)
-    heading = None if lane is None else lane.slope
-    return View(centres, mask, structure, settle_lines(lines, heading, plants, crop, camera), lane)
+def find(
+    image: Image,
+    crop: CropProfile,
+    camera: Pinhole,
+    widest_offset_m: float | None = None,
+    surely: bool = True,
+) -> View:
+    """Find the rows of a frame without knowing any before; see `lane_rows` for `widest_offset_m`.
+
+    surely: whether the camera's pose is known but for calibration and shaking.
+    """
+    cover = vegetation_of(image, crop.vegetation)
+    centres = plants_in(cover, crop.vegetation, camera)
+    found = find_rows(cover, centres, crop, camera, surely)
+    lane = _lane(found, centres, crop, camera, widest_offset_m)
+    return View(cover, centres, found.lines, found.paths_px, lane)
 
 
 def lane_of(
-    centres: Centres, crop: CropProfile, camera: Pinhole, widest_offset_m: float | None = None
+    cover: Cover,
+    centres: Centres,
+    crop: CropProfile,
+    camera: Pinhole,
+    widest_offset_m: float | None = None,
 ) -> LaneFit | None:
-    """The lane under the robot among plants already found; None when there is none."""
-    lines = find_rows(centres, crop.finding, camera)
+    """The lane under the robot among vegetation already found; None when there is none."""
+    found = find_rows(cover, centres, crop, camera)
+    return _lane(found, centres, crop, camera, widest_offset_m)
+
+
+def _lane(
+    found: Found, centres: Centres, crop: CropProfile, camera: Pinhole, widest_offset_m: float | None
+) -> LaneFit | None:
     plants = on_ground(centres, crop, camera)
-    return settle(lane_rows(lines, crop, camera, widest_offset_m), plants, crop, camera, widest_offset_m)
+    return settle(
+        lane_rows(found.lines, crop, camera, widest_offset_m), plants, crop, camera, widest_offset_m
+    )

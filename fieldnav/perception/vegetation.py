@@ -1,12 +1,13 @@
-"""Where plants are: excess green, Otsu's threshold, connected regions, centres of mass (paper III-A.1)."""
+"""Where vegetation is: excess green and Otsu's threshold (paper III-A.1)."""
+
+from dataclasses import dataclass, replace
 
 import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from fieldnav.messages import Centres, Floats, Image
-from fieldnav.perception.regions import Regions, divide, of_mask
-from fieldnav.pinhole import Pinhole
+from fieldnav.messages import Image
+from fieldnav.perception.parts import ImagePart
 from fieldnav.settings.crop import Vegetation
 
 Mask = NDArray[np.uint8]
@@ -16,9 +17,53 @@ FULL_SCALE = 255  # grey level that stands for an index of 1
 COLOURS = 3
 DARK_LEVEL = 26.0  # grey levels added to the brightness, so that sensor noise in the dark is not called green
 WORKING_WIDTH_PX = (
-    640  # regions are found at this width or just above: centres of mass lose no accuracy there
+    640  # vegetation is found at this width or just above: centres of mass lose no accuracy there
 )
 SMALLEST_SIDE_PX = 8  # an image less wide or high holds no rows
+FAINT, LUSH = 0.45, 3.0  # times the threshold: where vegetation begins to count, and where it counts in full
+
+
+@dataclass(frozen=True, slots=True)
+class Cover:
+    """The vegetation of an image, at a size near WORKING_WIDTH_PX.
+
+    index: excess green, shape (h, w), uint8, 255 standing for 1; threshold: the grey level from which on a
+    pixel is vegetation; width_px, height_px: size of the image itself.
+    """
+
+    index: NDArray[np.uint8]
+    threshold: float
+    width_px: int
+    height_px: int
+
+    @property
+    def mask(self) -> Mask:
+        """Vegetation at the working size."""
+        return np.asarray(cv2.threshold(self.index, self.threshold, FULL_SCALE, cv2.THRESH_BINARY)[1])
+
+    @property
+    def whole_mask(self) -> Mask:
+        """Vegetation at the image's own size."""
+        size = (self.width_px, self.height_px)
+        if 0 in size:
+            return np.zeros(size[::-1], np.uint8)
+        return np.asarray(cv2.resize(self.mask, size, interpolation=cv2.INTER_NEAREST), np.uint8)
+
+    @property
+    def strength(self) -> NDArray[np.uint8]:
+        """How surely and how densely each pixel is vegetation, 0 to 255, at the working size."""
+        grey = np.arange(FULL_SCALE + 1) / self.threshold
+        table = (grey - FAINT) / (LUSH - FAINT) * FULL_SCALE
+        return np.asarray(cv2.LUT(self.index, table.clip(0, FULL_SCALE).astype(np.uint8)), np.uint8)
+
+    def part(self, part: ImagePart) -> "Cover":
+        """The same image with nothing growing outside a part of it."""
+        index, middle = self.index.copy(), len(self.index) // 2
+        if part is ImagePart.TOP:
+            index[middle:] = 0
+        elif part is ImagePart.BOTTOM:
+            index[:middle] = 0
+        return replace(self, index=index)
 
 
 def excess_green(image: Image) -> NDArray[np.uint8]:
@@ -35,38 +80,23 @@ def excess_green(image: Image) -> NDArray[np.uint8]:
     return np.asarray(cv2.divide(excess, brightness, scale=FULL_SCALE * 2 / COLOURS), dtype=np.uint8)
 
 
-def segment(image: Image, vegetation: Vegetation) -> Mask:
-    """The vegetation of an image by Otsu's threshold, never below the profile's floor; empty on bare soil.
+def vegetation_of(image: Image, vegetation: Vegetation) -> Cover:
+    """The vegetation of an image, by Otsu's threshold but never below the profile's floor.
 
-    image: shape (h, w, 3), uint8, blue green red. Returns shape (h, w).
-    """
-    index = excess_green(image)
-    otsu, _ = cv2.threshold(index, 0, FULL_SCALE, cv2.THRESH_OTSU)
-    threshold = max(otsu, vegetation.floor * FULL_SCALE)
-    return np.asarray(cv2.threshold(index, threshold, FULL_SCALE, cv2.THRESH_BINARY)[1], dtype=np.uint8)
-
-
-def find_plants(image: Image, vegetation: Vegetation, camera: Pinhole) -> tuple[Centres, Mask]:
-    """The plants of an image, and its vegetation.
-
-    Regions are found at WORKING_WIDTH_PX; those smaller than the profile's area at their place are left out,
-    those taller than its limit are divided. An image that is none (one channel, tiny, not finite) holds no
-    plants. The camera must be that of the image: pixels of both are the same.
+    image: shape (h, w, 3), uint8, blue green red. One that is none (one channel, tiny, not finite) has nothing
+    growing in it.
     """
     colour = _as_colour(image)
     if colour is None:
-        return NOTHING, np.zeros(image.shape[:2], np.uint8)
+        height, width = (*image.shape, 0, 0)[:2]
+        return Cover(np.zeros((1, 1), np.uint8), FULL_SCALE, width, height)
     height, width = colour.shape[:2]
     divisor = max(1, width // WORKING_WIDTH_PX)
-    size = (width // divisor, height // divisor)
+    size = (width // divisor, max(1, height // divisor))
     small = colour if divisor == 1 else cv2.resize(colour, size, interpolation=cv2.INTER_AREA)
-    mask = segment(np.asarray(small, dtype=np.uint8), vegetation)
-    scale = np.array([width, height]) / size
-    labels, found = of_mask(mask)
-    large = _area_m2(found, scale, camera) >= vegetation.smallest_area_m2
-    pieces = divide(labels, found, _sections(found, scale[1], vegetation.tallest_region_m, camera) * large)
-    whole = mask if divisor == 1 else cv2.resize(mask, (width, height), interpolation=cv2.INTER_NEAREST)
-    return _centres(pieces, scale), np.asarray(whole, dtype=np.uint8)
+    index = excess_green(np.asarray(small, dtype=np.uint8))
+    otsu, _ = cv2.threshold(index, 0, FULL_SCALE, cv2.THRESH_OTSU)
+    return Cover(index, max(otsu, vegetation.floor * FULL_SCALE, 1.0), width, height)
 
 
 def _as_colour(image: Image) -> Image | None:
@@ -76,39 +106,3 @@ def _as_colour(image: Image) -> Image | None:
     if image.dtype != np.uint8:
         image = np.nan_to_num(image, nan=0, posinf=0, neginf=0).clip(0, FULL_SCALE).astype(np.uint8)
     return image if image.shape[2] == COLOURS else np.ascontiguousarray(image[:, :, :COLOURS])
-
-
-def _area_m2(found: Regions, scale: Floats, camera: Pinhole) -> Floats:
-    """Area on the ground of regions; 0 above the horizon."""
-    across = camera.pixels_per_metre(to_full(found.y, scale[1])).clip(0)
-    per_m2 = across * along_pixels_per_metre(across, camera)
-    area = found.area * scale.prod()
-    return np.asarray(np.divide(area, per_m2, out=np.zeros(len(area)), where=per_m2 > 0))
-
-
-def _sections(found: Regions, scale: float, tallest_m: float, camera: Pinhole) -> NDArray[np.int64]:
-    """Into how many pieces each region is divided, at least 1."""
-    middle = to_full((found.top + found.bottom) / 2, scale)
-    tallest_px = tallest_m * along_pixels_per_metre(camera.pixels_per_metre(middle), camera)
-    height_px = (found.bottom - found.top + 1) * scale
-    sections = np.ceil(height_px / tallest_px.clip(1)).clip(1, found.bottom - found.top + 1)
-    return np.asarray(sections, dtype=np.int64)
-
-
-def along_pixels_per_metre(across: Floats, camera: Pinhole) -> Floats:
-    """Image height of one metre along the ground where a metre across it is `across` pixels wide."""
-    return np.asarray(across * across * camera.height_m / camera.focal_px)
-
-
-def to_full(position: Floats, scale: float) -> Floats:
-    """Pixel positions of a smaller image in the full one; pixel centres lie at whole numbers in both."""
-    return np.asarray((position + 0.5) * scale - 0.5)
-
-
-def _centres(pieces: Regions, scale: Floats) -> Centres:
-    position = np.stack([to_full(pieces.x, scale[0]), to_full(pieces.y, scale[1])], axis=-1)
-    top = pieces.top * scale[1]
-    return Centres(position, pieces.area * scale.prod(), top, (pieces.bottom + 1) * scale[1] - 1)
-
-
-NOTHING = Centres(np.empty((0, 2)), np.empty(0), np.empty(0), np.empty(0))

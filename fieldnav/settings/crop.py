@@ -18,9 +18,10 @@ class VegetationIndex(Enum):
 
 
 class RowFinder(Enum):
-    """The method that finds rows in a fresh frame."""
+    """The method that finds rows in a fresh frame: the paper's, or the comb that explains the picture best."""
 
     MOVING_VARIANCE = "moving_variance"
+    COMB = "comb"
 
 
 class Rows(Settings):
@@ -50,9 +51,9 @@ class Vegetation(Settings):
 
 
 class Finding(Settings):
-    """Paper III-A.2: the sliding window and the field-structure signal, relative to the image's width."""
+    """The finder, and the paper's sliding window and field-structure signal (III-A.2) over the image's width."""
 
-    method: RowFinder = RowFinder.MOVING_VARIANCE
+    method: RowFinder = RowFinder.COMB
     window: float = Field(
         default=0.1, gt=0.01, le=0.5, description="window width over image width (paper: W/10)"
     )

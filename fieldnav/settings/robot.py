@@ -123,6 +123,29 @@ class Limits(Settings):
     )
 
 
+class CameraLimits(Settings):
+    """How far a camera may look away from its file's values, by what the rows tell, before it is reported."""
+
+    tilt_deg: float = Field(
+        default=4.0,
+        gt=0,
+        le=30,
+        description="mounting and lens hide 2 degrees, and rows tell no better than to 1",
+    )
+    height_m: float = Field(
+        default=0.15,
+        gt=0,
+        le=2,
+        description="rows sown a little closer than the profile has them look like 0.08 m",
+    )
+    yaw_deg: float = Field(
+        default=6.0,
+        gt=0,
+        le=45,
+        description="against the rows; in a bend of 25 m radius they lie 3 degrees aside",
+    )
+
+
 class Timeouts(Settings):
     """Silence that is borne no longer."""
 
@@ -142,6 +165,7 @@ class Robot(Settings):
     can: Bus
     limits: Limits
     timeouts: Timeouts = Timeouts()
+    camera_limits: CameraLimits = CameraLimits()
 
     @model_validator(mode="after")
     def _four_modules(self) -> Self:

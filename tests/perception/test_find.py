@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 from fieldnav.messages import RowLine
 from fieldnav.perception.moving_variance import field_structure, find_rows
 from fieldnav.perception.perceive import View, find, lane_of
-from fieldnav.perception.vegetation import find_plants
+from fieldnav.perception.plants import find_plants
 
 NOBODY = np.empty((0, 2))
 
@@ -168,7 +168,7 @@ def test_what_is_no_picture_has_no_rows(drawn: SimpleNamespace, shape: tuple[int
 def test_the_field_structure_has_a_trough_on_every_row_and_peaks_between(drawn: SimpleNamespace) -> None:
     crop, camera = drawn.beet, drawn.camera
     image = drawn.picture(crop, camera, drawn.stand(crop, scatter_m=0.01))
-    centres, _ = find_plants(image, crop.vegetation, camera)
+    centres = find_plants(image, crop.vegetation, camera)
 
     structure = field_structure(centres, crop.finding, camera)
     rows = find_rows(centres, crop.finding, camera)
@@ -185,4 +185,4 @@ def test_plants_found_before_give_the_same_lane(drawn: SimpleNamespace) -> None:
     image = drawn.picture(crop, camera, drawn.stand(crop, scatter_m=0.01))
     view = find(image, crop, camera)
 
-    assert lane_of(view.centres, crop, camera) == view.lane
+    assert lane_of(view.cover, view.centres, crop, camera) == view.lane

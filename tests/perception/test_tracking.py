@@ -11,14 +11,14 @@ from fieldnav.perception.perceive import find
 from fieldnav.perception.row_end import centres_in_rows, crop_stretch_m, farthest_crop_m
 from fieldnav.perception.row_end import nearest_crop_m as nearest_m
 from fieldnav.perception.tracking import TrackedRows, feature, start, track
-from fieldnav.perception.vegetation import NOTHING, find_plants
+from fieldnav.perception.plants import NO_PLANTS, find_plants
 
 PERIOD_S = 1 / 15
 
 
 def plants_seen(drawn: SimpleNamespace, plants_m: np.ndarray, weeds_m: np.ndarray | None = None) -> Centres:
     image = drawn.picture(drawn.beet, drawn.camera, plants_m, weeds_m)
-    return find_plants(image, drawn.beet.vegetation, drawn.camera)[0]
+    return find_plants(image, drawn.beet.vegetation, drawn.camera)
 
 
 def started(drawn: SimpleNamespace) -> TrackedRows:
@@ -77,7 +77,7 @@ def test_rows_hold_their_lines_when_nothing_is_seen_and_are_lost_after_a_while(
     before = started(drawn)
     hold_s = drawn.beet.tracking.hold_s
 
-    rows = follow(drawn, before, NOTHING, hold_s - 0.1)
+    rows = follow(drawn, before, NO_PLANTS, hold_s - 0.1)
 
     assert rows.rows_seen == 0
     for row, last in zip(rows.rows, before.rows, strict=True):
@@ -89,7 +89,7 @@ def test_rows_hold_their_lines_when_nothing_is_seen_and_are_lost_after_a_while(
 
 def test_a_row_that_comes_again_is_seen_again(drawn: SimpleNamespace) -> None:
     whole = plants_seen(drawn, drawn.stand(drawn.beet))
-    rows = follow(drawn, started(drawn), NOTHING, 1.0)
+    rows = follow(drawn, started(drawn), NO_PLANTS, 1.0)
 
     rows = follow(drawn, rows, whole, 2.0)
 
@@ -165,4 +165,4 @@ def test_the_rows_reach_is_told_in_metres(drawn: SimpleNamespace) -> None:
 
     assert stretch == pytest.approx((1.0, 1.5), abs=0.01)
     assert (nearest_m(two, rows, beet, camera), farthest_crop_m(two, rows, beet, camera)) == stretch
-    assert crop_stretch_m(NOTHING, rows, beet, camera) is None
+    assert crop_stretch_m(NO_PLANTS, rows, beet, camera) is None

@@ -8,7 +8,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from fieldnav.perception.vegetation import excess_green, find_plants, segment
+from fieldnav.perception.plants import find_plants, plants_in
+from fieldnav.perception.vegetation import excess_green, vegetation_of
 from fieldnav.settings.crop import Vegetation
 
 SIZE = (720, 1280, 3)
@@ -37,7 +38,8 @@ def test_a_picture_without_green_has_no_vegetation(
     grain = np.random.default_rng(1).normal(0, 3, SIZE)
     image = np.clip(uniform(colour) + grain, 0, 255).astype(np.uint8)
 
-    centres, mask = find_plants(image, drawn.beet.vegetation, drawn.camera)
+    cover = vegetation_of(image, drawn.beet.vegetation)
+    centres, mask = plants_in(cover, drawn.beet.vegetation, drawn.camera), cover.whole_mask
 
     assert len(centres) == 0
     assert (mask > 0).mean() < 0.01
@@ -49,7 +51,8 @@ def test_a_discs_centre_is_found_within_a_pixel(drawn: SimpleNamespace) -> None:
     for place in places:
         cv2.circle(image, tuple(np.round(place * 16).astype(int).tolist()), 25 * 16, (50, 150, 70), -1, 16, 4)
 
-    centres, mask = find_plants(image, drawn.beet.vegetation, drawn.camera)
+    cover = vegetation_of(image, drawn.beet.vegetation)
+    centres, mask = plants_in(cover, drawn.beet.vegetation, drawn.camera), cover.whole_mask
 
     assert centres.position_px == pytest.approx(places, abs=0.5)
     assert centres.area_px == pytest.approx(np.full(3, np.pi * 25**2), rel=0.06)
@@ -62,7 +65,7 @@ def test_a_long_bush_is_divided_along_the_row(drawn: SimpleNamespace) -> None:
     image = uniform(drawn.soil)
     cv2.rectangle(image, (600, 0), (680, 719), (50, 150, 70), -1)
 
-    centres, _ = find_plants(image, Vegetation(tallest_region_m=0.2), drawn.camera)
+    centres = find_plants(image, Vegetation(tallest_region_m=0.2), drawn.camera)
 
     near_m, far_m = drawn.camera.view_m
     assert (far_m - near_m) / 0.2 <= len(centres) <= (far_m - near_m) / 0.15
@@ -74,7 +77,7 @@ def test_a_long_bush_is_divided_along_the_row(drawn: SimpleNamespace) -> None:
 def test_regions_below_the_smallest_area_are_no_plants(drawn: SimpleNamespace) -> None:
     image = drawn.picture(drawn.beet, drawn.camera, np.array([[1.2, 0.0]]), np.array([[1.2, 0.3]]), 0.005)
 
-    centres, _ = find_plants(image, Vegetation(smallest_area_m2=0.0005), drawn.camera)
+    centres = find_plants(image, Vegetation(smallest_area_m2=0.0005), drawn.camera)
 
     assert len(centres) == 1
 
@@ -83,7 +86,7 @@ def test_the_floor_holds_when_otsu_would_split_bare_soil(drawn: SimpleNamespace)
     image = uniform((100, 104, 100))
     image[:, 640:] = (100, 100, 100)
 
-    assert segment(image, Vegetation()).sum() == 0
+    assert vegetation_of(image, Vegetation()).mask.sum() == 0
 
 
 @pytest.mark.parametrize(
@@ -99,7 +102,8 @@ def test_the_floor_holds_when_otsu_would_split_bare_soil(drawn: SimpleNamespace)
     ids=["grey", "one channel", "one pixel", "empty", "NaN", "infinite"],
 )
 def test_what_is_no_picture_holds_no_plants(drawn: SimpleNamespace, image: np.ndarray) -> None:
-    centres, mask = find_plants(image, Vegetation(), drawn.camera)
+    cover = vegetation_of(image, Vegetation())
+    centres, mask = plants_in(cover, Vegetation(), drawn.camera), cover.whole_mask
 
     assert len(centres) == 0
     assert mask.shape == image.shape[:2]
@@ -110,8 +114,8 @@ def test_what_is_no_picture_holds_no_plants(drawn: SimpleNamespace, image: np.nd
 def test_a_mirrored_picture_has_the_mirrored_plants(drawn: SimpleNamespace, seed: int) -> None:
     image = drawn.picture(drawn.beet, drawn.camera, drawn.strewn(20, seed), seed=seed)
 
-    plain, _ = find_plants(image, Vegetation(), drawn.camera)
-    mirrored, _ = find_plants(np.ascontiguousarray(image[:, ::-1]), Vegetation(), drawn.camera)
+    plain = find_plants(image, Vegetation(), drawn.camera)
+    mirrored = find_plants(np.ascontiguousarray(image[:, ::-1]), Vegetation(), drawn.camera)
 
     flipped = np.stack([1279 - mirrored.position_px[:, 0], mirrored.position_px[:, 1]], axis=-1)
     order, other = np.lexsort(np.round(plain.position_px, 3).T), np.lexsort(np.round(flipped, 3).T)

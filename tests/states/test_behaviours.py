@@ -7,9 +7,8 @@ import pytest
 
 from fieldnav.messages import CameraName, Direction, Frame, Side, Steering
 from fieldnav.perception.crossing import begin
-from fieldnav.perception.perceive import lane_of
+from fieldnav.perception.perceive import find
 from fieldnav.perception.tracking import start
-from fieldnav.perception.vegetation import find_plants
 from states.acquiring import CREEP_LIMIT_M, STANDING_LOOK_S, Acquiring
 from states.behaviour import Step, Task
 from states.behaviours import Behaviours
@@ -38,10 +37,7 @@ def judged(step: Step, name: str) -> float:
 
 def lane(drawn: SimpleNamespace, number: int = 1) -> LaneMemory:
     """The memory of a lane whose rows both cameras see."""
-    centres, _ = find_plants(
-        drawn.picture(drawn.crop, drawn.rows(drawn.crop)), drawn.crop.vegetation, drawn.camera
-    )
-    fit = lane_of(centres, drawn.crop, drawn.camera)
+    fit = find(drawn.picture(drawn.crop, drawn.rows(drawn.crop)), drawn.crop, drawn.camera).lane
     assert fit
     rows = start(fit, 0.0)
     return LaneMemory(number=number, leading=rows, trailing=rows, switch=SwitchMemory(started_m=0.0))

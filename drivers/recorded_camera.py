@@ -1,0 +1,121 @@
+"""A camera that plays what was recorded: a video, a folder of pictures, or one picture for ever."""
+
+from pathlib import Path
+from typing import Protocol
+
+import cv2
+import numpy as np
+
+from fieldnav.errors import DriverError
+from fieldnav.messages import CameraName, Frame, Image
+from fieldnav.settings.robot import CameraSettings
+
+PICTURES = (".jpg", ".jpeg", ".png", ".bmp", ".tif", ".tiff", ".webp")
+ROUNDING = 1e-6  # of a frame: a time that is a frame's own must not fall short of it
+
+
+class Reel(Protocol):
+    """Pictures in their order."""
+
+    def picture(self, index: int) -> Image | None:
+        """The picture of an index that never falls; None past the last. Raises DriverError."""
+        ...
+
+    def close(self) -> None: ...
+
+
+class RecordedCamera:
+    """The Camera port over a reel, played at the robot file's rate from the moment it is first looked at.
+
+    After the last picture that one is kept, and grows old like that of a camera which has stopped.
+    """
+
+    def __init__(self, name: CameraName, settings: CameraSettings, reel: Reel) -> None:
+        self._name, self._settings, self._reel = name, settings, reel
+        self._start_s: float | None = None
+        self._index = -1
+        self._frame: Frame | None = None
+
+    def latest(self, now_s: float) -> Frame | None:
+        """The picture whose time has come; those before it that nobody asked for are passed over."""
+        start_s = self._start_s = now_s if self._start_s is None else self._start_s
+        index = int((now_s - start_s) * self._settings.rate_hz + ROUNDING)
+        if index > self._index:
+            self._index = index
+            image = self._reel.picture(index)
+            if image is not None:
+                check_size(image, self._settings)
+                stamp_s = start_s + index / self._settings.rate_hz
+                self._frame = Frame(self._name, index + 1, stamp_s, image)
+        return self._frame
+
+    def close(self) -> None:
+        self._reel.close()
+
+
+class Still:
+    """One picture, again and again."""
+
+    def __init__(self, path: Path) -> None:
+        self._image = read_picture(path)
+
+    def picture(self, index: int) -> Image | None:
+        return self._image
+
+    def close(self) -> None:
+        """Nothing to give back."""
+
+
+class Folder:
+    """The pictures of a folder by their names' order."""
+
+    def __init__(self, path: Path) -> None:
+        self._paths = sorted(each for each in path.iterdir() if each.suffix.lower() in PICTURES)
+        if not self._paths:
+            raise DriverError(f"{path}: holds no picture; allowed are {', '.join(PICTURES)}")
+
+    def picture(self, index: int) -> Image | None:
+        return read_picture(self._paths[index]) if index < len(self._paths) else None
+
+    def close(self) -> None:
+        """Nothing to give back."""
+
+
+class Video:
+    """The pictures of an opened video file."""
+
+    def __init__(self, capture: cv2.VideoCapture) -> None:
+        self._capture = capture
+        self._passed = -1
+
+    def picture(self, index: int) -> Image | None:
+        while self._passed < index:
+            if not self._capture.grab():
+                return None
+            self._passed += 1
+        whole, image = self._capture.retrieve()
+        return np.asarray(image, dtype=np.uint8) if whole else None
+
+    def close(self) -> None:
+        self._capture.release()
+
+
+def read_picture(path: Path) -> Image:
+    """The picture in a file, shape (height, width, 3), blue green red. Raises DriverError."""
+    try:
+        image = cv2.imread(str(path), cv2.IMREAD_COLOR)
+    except cv2.error:  # a head that claims more pixels than OpenCV allocates
+        image = None
+    if image is None:
+        raise DriverError(f"{path}: is no picture that can be read")
+    return np.asarray(image, dtype=np.uint8)
+
+
+def check_size(image: Image, settings: CameraSettings) -> None:
+    """Raise DriverError for a picture that is not of the robot file's size: every metre would be wrong."""
+    height, width = image.shape[:2]
+    if (width, height) != (settings.width_px, settings.height_px):
+        raise DriverError(
+            f"{settings.source}: gives {width}x{height} px; the robot file has width_px {settings.width_px} "
+            f"and height_px {settings.height_px}"
+        )

@@ -1,0 +1,135 @@
+"""`fieldnav bench`: what fieldnav achieves, measured now, beside its goals and the best values known."""
+
+import sys
+import tempfile
+from collections.abc import Callable
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from fieldnav.cli.bench_report import document, report_table
+from fieldnav.cli.checkout import commit, machine
+from fieldnav.cli.console import out, print_json
+from fieldnav.errors import OutputError, SettingsError
+from fieldnav.evaluation.benchmark import Plan, Progress, Report
+
+bench = typer.Typer(
+    name="bench",
+    no_args_is_help=True,
+    help="Measure what fieldnav achieves, beside its goals and the best values known.",
+)
+
+MOST_THREADS = 256
+
+DataOption = Annotated[
+    Path | None,
+    typer.Option(
+        envvar="FIELDNAV_DATA",
+        metavar="DIR",
+        help="Folder with the photographs: near_nadir_jw/ and crbd/, either or both.",
+    ),
+]
+QuickOption = Annotated[bool, typer.Option("--quick", help="A smaller sample, in under a minute.")]
+JsonOption = Annotated[bool, typer.Option("--json", help="Print one JSON object, for programs.")]
+ThreadsOption = Annotated[
+    int | None, typer.Option(min=1, max=MOST_THREADS, help="Threads that OpenCV may use.")
+]
+
+
+@bench.command()
+def detection(
+    data: DataOption = None,
+    quick: QuickOption = False,
+    as_json: JsonOption = False,
+    threads: ThreadsOption = None,
+    plot: Annotated[
+        Path | None, typer.Option(metavar="DIR", help="Folder that reliability.png is drawn into.")
+    ] = None,
+) -> None:
+    """Find crop rows in photographs and in rendered fields, and where there are none.
+
+    A row of a photograph counts as found at a confidence of at least 0.5;
+    the reliability of the confidence is judged over all rows.
+    Photographs that are absent are left out, and the table says so.
+    """
+    plan = Plan(_folder(data), quick, plots=None if plot is None else _writable(plot))
+    _use_threads(threads)
+    from fieldnav.evaluation.detection import detection as measure  # noqa: PLC0415 - loads OpenCV
+
+    _report("detection", measure, plan, as_json)
+
+
+@bench.command()
+def speed(
+    data: DataOption = None,
+    quick: QuickOption = False,
+    as_json: JsonOption = False,
+    threads: ThreadsOption = 1,
+) -> None:
+    """Time what is done to every frame, against the bare primitives it is made of.
+
+    Photographs that are absent are left out, and the table says so.
+    """
+    plan = Plan(_folder(data), quick)
+    _use_threads(threads)
+    _report("speed", _speed, plan, as_json)
+
+
+def _speed(plan: Plan, progress: Progress) -> Report:
+    from fieldnav.evaluation.photographs import PhotographSet  # noqa: PLC0415 - loads OpenCV
+    from fieldnav.evaluation.speed import speed as measure  # noqa: PLC0415 - the same
+
+    timed = PhotographSet.NEAR_NADIR
+    left_out = () if timed.folder(plan) else (timed.absence(plan),)
+    return Report(tuple(measure(plan, progress)), left_out)
+
+
+def _folder(data: Path | None) -> Path | None:
+    """The folder of photographs, None where none is named. Raises SettingsError where it does not exist."""
+    if data is not None and not data.is_dir():
+        raise SettingsError(
+            f"--data {data}: there is no such folder; allowed is one that holds near_nadir_jw or crbd "
+            "(the option's default is the environment variable FIELDNAV_DATA)"
+        )
+    return data
+
+
+def _writable(folder: Path) -> Path:
+    """The folder, made if it lacks, before any time is spent on measuring. Raises OutputError."""
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+        with tempfile.TemporaryFile(dir=folder):
+            pass
+    except OSError as error:
+        raise OutputError(
+            f"--plot {folder}: cannot be written here: {error.strerror}; allowed is a folder you can write"
+        ) from error
+    return folder
+
+
+def _use_threads(threads: int | None) -> None:
+    import cv2  # noqa: PLC0415 - other commands need not wait for OpenCV
+
+    if threads is not None:
+        cv2.setNumThreads(threads)
+
+
+def _report(name: str, measure: Callable[[Plan, Progress], Report], plan: Plan, as_json: bool) -> None:
+    """Measure and print; the figures are reported whatever they are."""
+    report = _measured(measure, plan)
+    if as_json:
+        print_json(document(name, commit(), report))
+        return
+    title = f"{name}: fieldnav {commit()} on {machine()}"
+    out().print(report_table(title, report))
+
+
+def _measured(measure: Callable[[Plan, Progress], Report], plan: Plan) -> Report:
+    """Measure with a progress bar on the terminal; quiet where there is none."""
+    if not sys.stderr.isatty():
+        return measure(plan, lambda part, done, steps: None)
+    from fieldnav.cli.bench_progress import PartBars  # noqa: PLC0415 - only for a person who watches
+
+    with PartBars() as bars:
+        return measure(plan, bars.tell)

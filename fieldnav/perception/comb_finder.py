@@ -1,0 +1,81 @@
+"""The better row finder: the comb of parallel rows that explains the vegetation best, then each row by itself."""
+
+import numpy as np
+
+from fieldnav.messages import Floats, RowLine
+from fieldnav.perception.bands import LEVEL, Bands, bands_of
+from fieldnav.perception.comb_refinement import Stiffness, refine
+from fieldnav.perception.comb_rows import CombRows, rows_of
+from fieldnav.perception.periodogram import SearchRange, candidates
+from fieldnav.perception.row_comb import RowComb
+from fieldnav.perception.row_confidence import confidence_of
+from fieldnav.perception.vegetation import Cover
+
+STEEP_VIEW = Stiffness(1, 1, middle=1.0, spacing=1.0, start=0.25, end=0.12, rounds=5, keep=0.1)
+"""A camera that looks down sees a metre or two of the rows: they are straight there."""
+OBLIQUE_VIEW = (
+    Stiffness(6, 2, middle=0.006, spacing=0.6, start=0.3, end=0.25, rounds=4),
+    Stiffness(6, 2, middle=0.002, spacing=0.2, start=0.2, end=0.12, rounds=5),
+)
+"""One that looks ahead sees bends and hills."""
+OBLIQUE = 0.8  # convergence from which on a view is one that looks ahead
+LEAST_CONFIDENCE = 0.5  # a row less sure than this is not reported
+
+
+def find_comb(cover: Cover, tried: SearchRange) -> tuple[RowComb, Bands] | None:
+    """The comb that fits the vegetation best among those tried; None where nothing grows."""
+    bands = bands_of(cover.strength)
+    combs = [_refined(comb, bands) for comb in candidates(bands, tried)[: tried.candidates]]
+    return (max(combs, key=lambda comb: comb.response(bands)), bands) if combs else None
+
+
+def rows_in(comb: RowComb, bands: Bands, cover: Cover) -> tuple[tuple[RowLine, ...], Floats]:
+    """The rows of a comb that are surely there, left to right, and their curves.
+
+    Returns lines, each the straight one nearest to its curve, and curves, shape (rows, points, 2), x and y in
+    pixels from the upper edge to the lower.
+    """
+    rows = rows_of(comb, bands)
+    sure = confidence_of(rows)
+    kept = np.flatnonzero(sure >= LEAST_CONFIDENCE)
+    curves = _curves_px(rows, cover)[kept]
+    lines = tuple(
+        _line(curve, comb, float(confidence), cover)
+        for curve, confidence in zip(curves, sure[kept], strict=True)
+    )
+    return lines, curves
+
+
+def convergence_of(comb: RowComb) -> float:
+    """How fast the rows run together: the picture's height over the horizon's distance from its middle."""
+    slope, middle = np.polyfit(LEVEL[comb.usable], comb.spacing[comb.usable], 1)
+    return float(slope / middle)
+
+
+def _refined(comb: RowComb, bands: Bands) -> RowComb:
+    if convergence_of(comb) < OBLIQUE:
+        return refine(comb, bands, STEEP_VIEW)
+    for stiffness in OBLIQUE_VIEW:
+        comb = refine(comb, bands, stiffness)
+    return comb
+
+
+def _curves_px(rows: CombRows, cover: Cover) -> Floats:
+    """Curves through the bands' middles, carried on straight to the picture's edges."""
+    level = np.concatenate([[-1 / 2], LEVEL, [1 / 2]])
+    place = rows.place
+    upper = 1.5 * place[:, :1] - place[:, 1:2] / 2
+    lower = 1.5 * place[:, -1:] - place[:, -2:-1] / 2
+    x = np.concatenate([upper, place, lower], axis=1) * cover.width_px + (cover.width_px - 1) / 2
+    y = np.broadcast_to(
+        (level * cover.height_px + (cover.height_px - 1) / 2).clip(0, cover.height_px - 1), x.shape
+    )
+    return np.stack([x, y], axis=-1)
+
+
+def _line(curve: Floats, comb: RowComb, confidence: float, cover: Cover) -> RowLine:
+    """The straight line nearest to a curve; the near ground, which is drawn larger, counts more."""
+    x, y = curve[1:-1].T
+    weight = np.where(comb.usable, comb.spacing, 0.0)
+    slope, start = np.polyfit(y, x, 1, w=weight)
+    return RowLine(float(start), float(start + slope * (cover.height_px - 1)), confidence)

@@ -1,0 +1,54 @@
+"""The row finders that a crop profile can choose between, behind one small interface."""
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+
+import numpy as np
+
+from fieldnav.messages import Centres, Floats, RowLine
+from fieldnav.perception import moving_variance
+from fieldnav.perception.canopy import canopy_plane, line_px
+from fieldnav.perception.comb_finder import find_comb, rows_in
+from fieldnav.perception.ground_plants import on_ground
+from fieldnav.perception.search_range import range_of
+from fieldnav.perception.settle import settle_lines
+from fieldnav.perception.vegetation import Cover
+from fieldnav.pinhole import Pinhole
+from fieldnav.settings.crop import CropProfile, RowFinder
+
+
+@dataclass(frozen=True, slots=True)
+class Found:
+    """Rows from left to right, as straight lines and as curves, shape (rows, points, 2), x and y in pixels."""
+
+    lines: tuple[RowLine, ...]
+    paths_px: Floats
+
+
+def find_rows(
+    cover: Cover, centres: Centres, crop: CropProfile, camera: Pinhole, surely: bool = True
+) -> Found:
+    """The rows of a frame by the method that the profile names; see `perceive.find`."""
+    return _FINDERS[crop.finding.method](cover, centres, crop, camera, surely)
+
+
+def _by_moving_variance(
+    cover: Cover, centres: Centres, crop: CropProfile, camera: Pinhole, surely: bool
+) -> Found:
+    lines = moving_variance.find_rows(centres, crop.finding, camera)
+    lines = settle_lines(lines, None, on_ground(centres, crop, camera), crop, camera)
+    y = np.array([0.0, camera.height_px - 1.0])
+    paths = [np.stack([line_px(line, y, camera), y], axis=-1) for line in lines]
+    return Found(lines, np.array(paths).reshape(len(lines), len(y), 2))
+
+
+def _by_comb(cover: Cover, centres: Centres, crop: CropProfile, camera: Pinhole, surely: bool) -> Found:
+    found = find_comb(cover, range_of(canopy_plane(camera, crop), crop, surely))
+    return Found(*rows_in(*found, cover)) if found else NO_ROWS
+
+
+NO_ROWS = Found((), np.empty((0, 0, 2)))
+_FINDERS: Mapping[RowFinder, Callable[[Cover, Centres, CropProfile, Pinhole, bool], Found]] = {
+    RowFinder.MOVING_VARIANCE: _by_moving_variance,
+    RowFinder.COMB: _by_comb,
+}

@@ -1,0 +1,75 @@
+"""The coarse search: which comb of straight rows the bands of a picture are most in step with.
+
+Only the fundamental is used, which makes the search over all directions a product of small matrices: the
+spectrum of each band at the frequency that a spacing has there, turned by the phase that a direction brings.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from fieldnav.messages import Floats
+from fieldnav.perception.bands import Bands
+from fieldnav.perception.row_comb import LEAST_GROWTH, RowComb, growth, straight
+
+FEWEST_ROWS_ACROSS = 1.0
+
+
+@dataclass(frozen=True, slots=True)
+class SearchRange:
+    """The combs that are tried, every combination; see `row_comb.straight` for the parameters."""
+
+    convergence: Floats
+    rows_across: Floats
+    vanishing: Floats
+    bend: Floats
+    candidates: int
+    halved: bool
+    """Whether a comb with half as many rows is tried beside each candidate: teeth have strong harmonics."""
+
+
+def candidates(bands: Bands, tried: SearchRange) -> tuple[RowComb, ...]:
+    """The combs that respond best, of different spacings, best first; none without vegetation."""
+    if bands.span == 0:
+        return ()
+    energy = np.stack([_energy(bands, tried, float(q)) for q in tried.convergence])
+    best = energy.max(axis=(0, 2, 3))
+    combs: list[RowComb] = []
+    for chosen in _peaks(best, tried.candidates):
+        q, b, c = np.unravel_index(int(energy[:, chosen].argmax()), energy[:, chosen].shape)
+        for divisor in (1, 2) if tried.halved else (1,):
+            across = float(tried.rows_across[chosen]) / divisor
+            if across >= FEWEST_ROWS_ACROSS:
+                comb = straight(
+                    float(tried.convergence[q]), across, float(tried.vanishing[b]), float(tried.bend[c])
+                )
+                combs.append(comb.in_phase(bands))
+    return tuple(sorted(combs, key=lambda comb: -comb.response(bands)))
+
+
+def _energy(bands: Bands, tried: SearchRange, convergence: float) -> Floats:
+    """Magnitude of the fundamental for each spacing, direction and bend; shape (f, b, c)."""
+    grown = growth(convergence)
+    usable = grown > LEAST_GROWTH
+    grown = np.maximum(grown, LEAST_GROWTH)
+    value = bands.at(tried.rows_across / grown[:, None]).T * usable
+    away = 1 / grown - 1
+    lean = _turns(tried.rows_across, tried.vanishing[:, None] * away)
+    bend = _turns(tried.rows_across, tried.bend[:, None] * away**2)
+    return np.asarray(np.abs((value[:, None] * lean) @ bend.transpose(0, 2, 1)))
+
+
+def _turns(rows_across: Floats, place: Floats) -> Floats:
+    """Phase factors that undo a displacement of so many widths at mid-height; shape (f, n, COUNT)."""
+    return np.exp((2j * np.pi) * rows_across[:, None, None] * place).astype(np.complex64)
+
+
+def _peaks(best: Floats, count: int) -> list[int]:
+    """The strongest places of a curve, no two of them neighbours."""
+    chosen: list[int] = []
+    for place in np.argsort(-best, kind="stable").tolist():
+        if all(abs(place - other) > 1 for other in chosen):
+            chosen.append(place)
+        if len(chosen) == count:
+            break
+    return chosen

@@ -1,0 +1,86 @@
+"""Parallel rows as a comb in the picture: where its teeth pass through each band.
+
+A plane seen by a camera without roll: the distance between rows grows linearly from the horizon down. With w the
+growth, 1 at mid-height, a straight row runs at a w + b (1 - w): a where it passes mid-height, b the vanishing
+point; a bend of the field adds c (1 - w)^2 / w.
+"""
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fieldnav.messages import Floats
+from fieldnav.perception.bands import COUNT, LEVEL, Bands
+
+HARMONICS = np.arange(1, 7)
+TOOTH = 0.12  # of the spacing: standard deviation of the template's tooth
+_STRENGTH = np.exp(-2 * (np.pi * HARMONICS * TOOTH) ** 2)
+TEMPLATE: Floats = _STRENGTH / np.sqrt((_STRENGTH**2).sum() / 2)
+"""Fourier coefficients of a row of teeth about its mean, of unit mean square."""
+PHASES = 48  # at which the comb is tried
+LEAST_GROWTH = 0.06  # nearer to the horizon rows cannot be told apart
+LEAST_SPACING = 1 / 80  # of the picture's width: four columns of a band
+LEAST_SEEN = 0.25  # of the bands that a row must pass
+
+
+@dataclass(frozen=True)
+class RowComb:
+    """The rows in each band, in picture widths: row k lies at middle + k spacing; arrays of shape (COUNT,).
+
+    usable: the bands below the horizon whose rows can be told apart.
+    """
+
+    middle: Floats
+    spacing: Floats
+    usable: NDArray[np.bool_]
+
+    @cached_property
+    def numbers(self) -> NDArray[np.int64]:
+        """The rows that pass through enough of the picture, from left to right."""
+        reach = int(1 / float(self.spacing[self.usable].min())) + 1 if self.usable.any() else 0
+        number = np.arange(-reach, reach + 1)
+        place = self.middle + number[:, None] * self.spacing
+        seen = ((np.abs(place) < 1 / 2) & self.usable).sum(axis=1)
+        return number[seen >= LEAST_SEEN * COUNT]
+
+    def response(self, bands: Bands) -> float:
+        """How well the vegetation follows the comb: its correlation with a row of teeth, -1 to 1."""
+        return float((TEMPLATE * self._harmonics(bands).real).sum()) / max(bands.span, np.finfo(float).tiny)
+
+    def in_phase(self, bands: Bands) -> "RowComb":
+        """The comb moved sideways, by less than its spacing, to where it responds best."""
+        phase = np.arange(PHASES) / PHASES
+        turned = np.exp(2j * np.pi * phase[:, None] * HARMONICS)
+        score = (turned * (TEMPLATE * self._harmonics(bands))).real.sum(axis=1)
+        shift = phase[int(score.argmax())]
+        return RowComb(self.middle + shift * self.spacing, self.spacing, self.usable)
+
+    def _harmonics(self, bands: Bands) -> NDArray[np.complex128]:
+        """Sum over the bands of the spectrum at the comb's harmonics, in the comb's phase."""
+        cycles = HARMONICS / self.spacing[:, None]
+        phase = np.exp(2j * np.pi * HARMONICS * (self.middle / self.spacing)[:, None])
+        return np.asarray((bands.at(cycles) * phase * self.usable[:, None]).sum(axis=0))
+
+
+def growth(convergence: float) -> Floats:
+    """How wide the ground is drawn in each band against mid-height; shape (COUNT,).
+
+    convergence: height of the picture over the distance from its mid-height up to the horizon.
+    """
+    return 1 + convergence * LEVEL
+
+
+def straight(convergence: float, rows_across: float, vanishing: float, bend: float = 0.0) -> RowComb:
+    """The comb of straight or evenly bent rows, row 0 through the middle of the picture.
+
+    rows_across: how many spacings fit into the width at mid-height; vanishing: where the rows meet on the
+    horizon, and bend: see the module; both in widths.
+    """
+    grown = growth(convergence)
+    usable = grown > LEAST_GROWTH
+    grown = np.maximum(grown, LEAST_GROWTH)
+    spacing = grown / rows_across
+    middle = vanishing * (1 - grown) + bend * (1 - grown) ** 2 / grown
+    return RowComb(middle, spacing, usable & (spacing > LEAST_SPACING))

@@ -1,0 +1,177 @@
+"""`fieldnav bench`: the table, the JSON, what is refused, and which fieldnav was measured."""
+
+import json
+import os
+import subprocess
+from pathlib import Path
+
+import pytest
+
+from fieldnav import __version__
+from fieldnav.cli.app import run
+from fieldnav.cli.bench_report import document, report_table
+from fieldnav.cli.checkout import commit, machine
+from fieldnav.cli.console import out
+from fieldnav.evaluation.benchmark import Better, Figure, LeftOut, Report
+
+REPORT = Report(
+    (
+        Figure("field", "F1", 0.962, 0.031, 0.95, 0.54, "the paper"),
+        Figure("field", "error (cm)", 2.5, goal=1.2, better=Better.LOWER),
+        Figure("field", "error of none (cm)", float("nan"), float("nan"), goal=1.2, better=Better.LOWER),
+        Figure("field", "count", 12345.0),
+    ),
+    (LeftOut("photographs", "there is no folder data/[crbd]"),),
+)
+
+
+def error(capsys: pytest.CaptureFixture[str]) -> str:
+    """The one line on standard error; nothing may stand on standard output."""
+    captured = capsys.readouterr()
+    lines = captured.err.splitlines()
+    assert captured.out == "" and len(lines) == 1, captured
+    return lines[0]
+
+
+def shown(capsys: pytest.CaptureFixture[str]) -> list[str]:
+    """The table's lines, one blank between words."""
+    out().print(report_table("title", REPORT))
+    return [" ".join(line.split()) for line in capsys.readouterr().out.splitlines()]
+
+
+def test_the_table_has_each_figure_beside_its_goal_and_the_best_known(
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    assert shown(capsys)[:-1] == [
+        "title",
+        "case metric value goal best known source met",
+        "field F1 0.962 +- 0.031 >= 0.95 0.540 the paper yes",
+        "field error (cm) 2.50 <= 1.2 no",
+        "field error of none (cm) none +- none <= 1.2 no",
+        "field count 12345",
+    ]
+
+
+def test_the_table_says_what_was_left_out_and_why(capsys: pytest.CaptureFixture[str]) -> None:
+    assert shown(capsys)[-1] == "photographs left out: there is no folder data/[crbd]"
+
+
+def test_the_document_is_what_programs_expect() -> None:
+    made = document("detection", "abc", REPORT)
+
+    assert list(made) == ["bench", "commit", "rows", "left_out"]
+    assert (made["bench"], made["commit"]) == ("detection", "abc")
+    assert made["rows"][0] == {
+        "case": "field",
+        "metric": "F1",
+        "value": 0.962,
+        "std": 0.031,
+        "goal": 0.95,
+        "best_known": 0.54,
+        "source": "the paper",
+        "met": True,
+    }
+    assert [row["met"] for row in made["rows"]] == [True, False, False, None]
+    assert made["left_out"] == [{"part": "photographs", "reason": "there is no folder data/[crbd]"}]
+
+
+def test_a_figure_that_could_not_be_formed_is_null_and_the_document_is_json() -> None:
+    text = json.dumps(document("detection", "abc", REPORT), allow_nan=False)
+
+    assert json.loads(text)["rows"][2]["value"] is None
+
+
+def test_a_benchmark_succeeds_whatever_its_figures_are_and_says_what_it_left_out(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert run(["bench", "detection", "--quick", "--json", "--data", str(tmp_path)]) == 0
+
+    printed = json.loads(capsys.readouterr().out)
+    assert printed["bench"] == "detection" and printed["commit"]
+    assert {"beans", "sim-curved", "no rows: bare soil"} <= {row["case"] for row in printed["rows"]}
+    assert [part["reason"] for part in printed["left_out"]][:2] == [
+        f"there is no folder {tmp_path / name}" for name in ("near_nadir_jw", "crbd")
+    ]
+
+
+@pytest.mark.parametrize("name", ["detection", "speed"])
+def test_a_folder_of_photographs_that_does_not_exist_is_refused(
+    name: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert run(["bench", name, "--data", str(tmp_path / "none"), "--json"]) == 2
+
+    line = error(capsys)
+    assert line.startswith(f"error: --data {tmp_path}/none: there is no such folder; allowed is")
+
+
+def test_the_environment_names_the_folder_too(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setenv("FIELDNAV_DATA", str(tmp_path / "elsewhere"))
+
+    assert run(["bench", "detection"]) == 2
+
+    assert f"{tmp_path}/elsewhere: there is no such folder" in error(capsys)
+
+
+@pytest.mark.parametrize("threads", ["0", "-1", "257", "two"])
+def test_a_count_of_threads_that_cannot_be_is_refused(
+    threads: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert run(["bench", "speed", "--threads", threads]) == 2
+
+    assert "--threads" in error(capsys)
+
+
+def test_a_folder_for_the_plot_that_cannot_be_made_is_refused_before_measuring(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    (tmp_path / "file").touch()
+
+    assert run(["bench", "detection", "--plot", str(tmp_path / "file" / "plots")]) == 2
+
+    assert f"--plot {tmp_path}/file/plots: cannot be written here" in error(capsys)
+
+
+@pytest.mark.parametrize("arguments", [["bench"], ["bench", "detection"], ["bench", "speed"]], ids=" ".join)
+def test_help_reads(arguments: list[str], capsys: pytest.CaptureFixture[str]) -> None:
+    assert run([*arguments, "--help"]) == 0
+
+    said = capsys.readouterr().out
+    assert "--quick" in said and "FIELDNAV_DATA" in said if len(arguments) > 1 else "detection" in said
+
+
+def git(folder: Path, *arguments: str) -> str:
+    """Run git there, and nowhere else: a hook that runs the tests tells git of another repository."""
+    plain = {key: value for key, value in os.environ.items() if not key.startswith("GIT_")}
+    name = ["-c", "user.name=nobody", "-c", "user.email=nobody@example.org", "-c", "commit.gpgsign=false"]
+    command = ["git", "-C", str(folder), *name, *arguments]
+    done = subprocess.run(command, capture_output=True, text=True, check=True, env=plain)
+    return done.stdout.strip()
+
+
+def test_figures_name_the_commit_and_whether_files_differ_from_it(tmp_path: Path) -> None:
+    git(tmp_path, "init", "--quiet")
+    (tmp_path / "file").write_text("one", encoding="utf-8")
+    git(tmp_path, "add", "file")
+    git(tmp_path, "commit", "--quiet", "--message", "first")
+    head = git(tmp_path, "rev-parse", "HEAD")
+
+    clean = commit(tmp_path)
+    (tmp_path / "file").write_text("two", encoding="utf-8")
+
+    assert clean == head[:12]
+    assert commit(tmp_path) == f"{head[:12]}-dirty"
+
+
+def test_an_installed_fieldnav_names_its_version_even_within_someone_elses_repository(tmp_path: Path) -> None:
+    git(tmp_path, "init", "--quiet")
+    git(tmp_path, "commit", "--quiet", "--allow-empty", "--message", "theirs")
+    inside = tmp_path / "lib" / "python"
+    inside.mkdir(parents=True)
+
+    assert commit(inside) == __version__
+
+
+def test_the_machine_is_named_with_its_processors() -> None:
+    assert "processor" in machine()

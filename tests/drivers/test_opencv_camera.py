@@ -1,0 +1,226 @@
+"""Cameras that OpenCV opens: the newest frame with its age, never a queue; a source that fails is named."""
+
+import time
+from collections.abc import Iterator
+from itertools import count
+from pathlib import Path
+from queue import Queue
+
+import cv2
+import numpy as np
+import pytest
+
+from drivers.opencv_camera import LiveCamera, open_camera
+from drivers.ports import Camera
+from fieldnav.errors import DriverError
+from fieldnav.messages import CameraName, Frame, Image
+from fieldnav.settings.loading import load_robot
+from fieldnav.settings.robot import CameraSettings
+
+WIDTH_PX, HEIGHT_PX, RATE_HZ = 64, 48, 10.0
+COUNT, STEP = 12, 20
+"""Frames of a recording, each a plain grey, and the grey levels from one to the next."""
+PATIENCE_S = 10.0
+
+
+def settings(source: Path | str, width_px: int = WIDTH_PX) -> CameraSettings:
+    changes = {"source": str(source), "width_px": width_px, "height_px": HEIGHT_PX, "rate_hz": RATE_HZ}
+    return load_robot("bonnbot").cameras.front.model_copy(update=changes)
+
+
+def grey(level: int) -> Image:
+    return np.full((HEIGHT_PX, WIDTH_PX, 3), level, np.uint8)
+
+
+@pytest.fixture
+def folder(tmp_path: Path) -> Path:
+    """Pictures by name, and a file that is none."""
+    made = tmp_path / "frames"
+    made.mkdir()
+    for index in range(COUNT):
+        cv2.imwrite(str(made / f"{index:03d}.png"), grey(STEP * index))
+    (made / "000.txt").write_text("notes")
+    return made
+
+
+@pytest.fixture
+def video(tmp_path: Path) -> Path:
+    path = tmp_path / "drive.avi"
+    size = (WIDTH_PX, HEIGHT_PX)
+    writer = cv2.VideoWriter(str(path), cv2.VideoWriter.fourcc(*"MJPG"), RATE_HZ, size)
+    for index in range(COUNT):
+        writer.write(grey(STEP * index))
+    writer.release()
+    return path
+
+
+@pytest.fixture(params=["folder", "video"])
+def recording(request: pytest.FixtureRequest) -> Iterator[Camera]:
+    source = request.getfixturevalue(request.param)
+    camera = open_camera(CameraName.FRONT, settings(source), clock=lambda: 0.0)
+    yield camera
+    camera.close()
+
+
+def index_of(frame: Frame | None) -> int:
+    """Which picture of a recording a frame is, by its grey."""
+    assert frame is not None
+    return round(float(frame.image.mean()) / STEP)
+
+
+def test_a_recording_is_played_at_its_rate(recording: Camera) -> None:
+    shown = [recording.latest(100 + at_s) for at_s in (0.0, 0.05, 0.1, 0.25)]
+
+    assert [index_of(frame) for frame in shown] == [0, 0, 1, 2]
+    assert [frame.stamp_s for frame in shown if frame] == pytest.approx([100, 100, 100.1, 100.2])
+    assert shown[0] is shown[1], "the same object until a newer frame arrives"
+    assert shown[0] and shown[0].camera is CameraName.FRONT
+
+
+def test_frames_nobody_asked_for_are_passed_over(recording: Camera) -> None:
+    recording.latest(0.0)
+
+    late = recording.latest(0.95)
+
+    assert index_of(late) == 9
+    assert late and (late.sequence, late.stamp_s) == (10, pytest.approx(0.9))
+
+
+def test_after_the_end_the_last_frame_grows_old(recording: Camera) -> None:
+    frames = [recording.latest(tick / RATE_HZ) for tick in range(COUNT + 30)]
+
+    assert index_of(frames[-1]) == COUNT - 1
+    assert frames[-1] is frames[COUNT - 1]
+
+
+def test_a_still_picture_is_seen_for_ever_and_never_stale(folder: Path) -> None:
+    camera = open_camera(CameraName.REAR, settings(folder / "003.png"), clock=lambda: 0.0)
+
+    frames = [camera.latest(at_s) for at_s in (0.0, 5.0, 500.0)]
+
+    assert [index_of(frame) for frame in frames] == [3, 3, 3]
+    assert [frame.stamp_s for frame in frames if frame] == [0.0, 5.0, 500.0]
+
+
+def test_a_recording_of_another_size_is_refused_naming_both(folder: Path) -> None:
+    camera = open_camera(CameraName.FRONT, settings(folder, width_px=80), clock=lambda: 0.0)
+
+    with pytest.raises(DriverError, match="frames: gives 64x48 px; the robot file has width_px 80"):
+        camera.latest(0.0)
+
+
+@pytest.mark.parametrize(
+    ("source", "content", "words"),
+    [
+        ("nowhere", None, "nowhere: there is no such device, video, picture or folder"),
+        ("/dev/video-none", None, "/dev/video-none: there is no such device"),
+        ("broken.avi", b"no video", "broken.avi: cannot be opened as a camera or a video"),
+        ("broken.png", b"no picture", "broken.png: is no picture that can be read"),
+        ("63", None, "63: cannot be opened as a camera"),
+        ("", b"", "holds no picture; allowed are .jpg"),
+    ],
+)
+def test_a_source_that_cannot_be_opened_is_named(
+    source: str,
+    content: bytes | None,
+    words: str,
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    capfd: pytest.CaptureFixture[str],
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    if content:
+        Path(source).write_bytes(content)
+    (tmp_path / "empty").mkdir()
+
+    with pytest.raises(DriverError, match=f"rear camera: .*{words}"):
+        open_camera(CameraName.REAR, settings(source or "empty"), clock=lambda: 0.0)
+
+    assert capfd.readouterr().err == "", "OpenCV adds no words of its own"
+
+
+class Webcam:
+    """A device that gives what the test hands to it, and waits for it as a real one does; None unplugs it."""
+
+    def __init__(self) -> None:
+        self.pictures: Queue[Image | None] = Queue()
+        self.released = False
+
+    def read(self) -> tuple[bool, Image | None]:
+        image = self.pictures.get(timeout=PATIENCE_S)
+        return image is not None, image
+
+    def release(self) -> None:
+        self.released = True
+
+
+class Live:
+    """A live camera on a webcam, and a clock that counts the frames."""
+
+    def __init__(self) -> None:
+        self.webcam, ticks = Webcam(), count()
+        made = settings("/dev/webcam")
+        self.camera = LiveCamera(CameraName.FRONT, made, self.webcam, lambda: float(next(ticks)))
+
+    def newest(self, sequence: int) -> Frame:
+        """The newest frame, once the thread has come so far."""
+        until = time.monotonic() + PATIENCE_S
+        while time.monotonic() < until:
+            frame = self.camera.latest(0.0)
+            if frame is not None and frame.sequence >= sequence:
+                return frame
+        raise AssertionError(f"frame {sequence} never came")
+
+    def failure(self) -> str:
+        """What the camera says in the end."""
+        with pytest.raises(DriverError) as caught:
+            self.newest(sequence=10**6)
+        return str(caught.value)
+
+
+@pytest.fixture
+def live() -> Iterator[Live]:
+    made = Live()
+    yield made
+    made.webcam.pictures.put(None)  # whoever waits for a frame waits no longer
+    made.camera.close()
+
+
+def test_before_its_first_frame_a_device_shows_nothing(live: Live) -> None:
+    assert live.camera.latest(0.0) is None
+
+
+def test_of_a_device_only_the_newest_frame_is_kept_stamped_as_it_came(live: Live) -> None:
+    for index in range(COUNT):
+        live.webcam.pictures.put(grey(STEP * index))
+
+    frame = live.newest(COUNT)
+
+    assert (frame.sequence, index_of(frame), frame.stamp_s) == (COUNT, COUNT - 1, COUNT - 1)
+    assert live.camera.latest(99.0) is frame, "a device that is silent shows how old its frame is"
+
+
+def test_a_device_that_is_unplugged_is_named(live: Live) -> None:
+    live.webcam.pictures.put(grey(0))
+    live.newest(1)
+
+    live.webcam.pictures.put(None)
+
+    assert live.failure() == "front camera: /dev/webcam: gives no more frames"
+
+
+def test_a_device_that_does_not_take_up_the_files_size_is_refused(live: Live) -> None:
+    live.webcam.pictures.put(np.zeros((720, 1280, 3), np.uint8))
+
+    assert "gives 1280x720 px; the robot file has width_px 64 and height_px 48" in live.failure()
+
+
+def test_a_device_is_given_back_when_it_is_closed(live: Live) -> None:
+    live.webcam.pictures.put(grey(0))
+    live.newest(1)
+    live.webcam.pictures.put(grey(0))
+
+    live.webcam.pictures.put(None)
+    live.camera.close()
+
+    assert live.webcam.released
