@@ -3,24 +3,33 @@
 import json
 import os
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from fieldnav.cli.console import out, table
 from fieldnav.settings.robot import LARGEST_SIDE_PX
 
 if TYPE_CHECKING:
-    from fieldnav.cli.pictures import Detection
+    from fieldnav.cli.detection import Detection
 
-PIXEL_DIGITS, ANGLE_DIGITS, SCORE_DIGITS, MILLISECOND_DIGITS = 1, 2, 3, 1
-"""Decimals that are printed; more would be noise."""
+USUAL_CROP = "sugar-beet"
+"""Taken with a robot when no crop is named: its camera looks for rows of some spacing."""
 
 
 def detect(
     images: Annotated[list[str], typer.Argument(help="Pictures, colour, of any size.", metavar="IMAGE")],
-    crop: Annotated[str, typer.Option(help="Crop profile; name or path.")] = "sugar-beet",
-    robot: Annotated[str, typer.Option(help="Robot whose front camera took them; name or path.")] = "bonnbot",
+    crop: Annotated[
+        str | None,
+        typer.Option(
+            help=f"Crop profile; name or path. Without one: rows of any spacing; with --robot: {USUAL_CROP}."
+        ),
+    ] = None,
+    robot: Annotated[
+        str | None,
+        typer.Option(
+            help="Robot whose front camera took them; name or path. Without one: the camera is estimated."
+        ),
+    ] = None,
     overlay: Annotated[
         Path | None, typer.Option(help="Folder for pictures with what was found drawn in.", metavar="DIR")
     ] = None,
@@ -32,65 +41,40 @@ def detect(
 
     A row is the line x = x_top + (x_bottom - x_top) * y / (height - 1), in pixels.
     Its angle is from the image's vertical, positive clockwise.
+    With --json it is also a curve: "points", from the upper edge to the lower.
+
+    Without --robot the camera is estimated: its tilt from how the rows run together,
+    and with --crop also its height, from how far apart they are.
     """
     # OpenCV reads this when it is loaded: a picture's head may claim any size, which is allocated at once.
     os.environ.setdefault("OPENCV_IO_MAX_IMAGE_PIXELS", str(LARGEST_SIDE_PX**2))
     # Here, because other commands need not wait for OpenCV.
-    from fieldnav.cli import pictures  # noqa: PLC0415
-    from fieldnav.cli.detection_overlay import draw_detection  # noqa: PLC0415
+    from fieldnav.cli import detection, detection_report, pictures  # noqa: PLC0415
     from fieldnav.settings.loading import load_crop, load_robot  # noqa: PLC0415
 
-    profile, camera = load_crop(crop), load_robot(robot).cameras.front
+    named = USUAL_CROP if crop is None and robot is not None else crop
+    known = detection.Known(
+        None if named is None else load_crop(named), None if robot is None else load_robot(robot)
+    )
     for path in images:
-        pictures.check(path, camera)
+        detection.check(path, known)
     overlays = pictures.overlay_paths(images, overlay) if overlay else {}
+    detection.detect_rows(images[0], known)  # the first look of a process takes longer than all others
     for path in images:
-        found = pictures.detect_rows(path, profile, camera)
+        found = detection.detect_rows(path, known)
         if as_json:
-            print(json.dumps(_document(found), ensure_ascii=False), flush=True)
+            print(json.dumps(detection_report.document(found), ensure_ascii=False), flush=True)
         else:
-            _print_table(found)
+            detection_report.print_table(found)
         if path in overlays:
-            pictures.write_picture(overlays[path], draw_detection(found))
+            _draw(found, overlays[path])
             if not as_json:
                 print(f"drawn in {overlays[path]}\n")
 
 
-def _document(found: "Detection") -> dict[str, Any]:
-    return {
-        "image": found.path,
-        "width": found.camera.width_px,
-        "height": found.camera.height_px,
-        "rows": [
-            {
-                "x_top": round(row.x_top_px, PIXEL_DIGITS),
-                "x_bottom": round(row.x_bottom_px, PIXEL_DIGITS),
-                "angle_deg": round(found.angle_deg(row), ANGLE_DIGITS),
-                "score": round(row.confidence, SCORE_DIGITS),
-            }
-            for row in found.view.lines
-        ],
-        "milliseconds": round(found.milliseconds, MILLISECOND_DIGITS),
-    }
+def _draw(found: "Detection", path: Path) -> None:
+    # Here, because without overlays nobody need wait for Matplotlib.
+    from fieldnav.cli.detection_overlay import draw_detection  # noqa: PLC0415
+    from fieldnav.cli.pictures import write_picture  # noqa: PLC0415
 
-
-def _print_table(found: "Detection") -> None:
-    lines = found.view.lines
-    count = "no row" if not lines else f"{len(lines)} row{'s' if len(lines) > 1 else ''}"
-    size = f"{found.camera.width_px}x{found.camera.height_px}"
-    title = f"{found.path}: {count}, {len(found.view.centres)} plants, {size}, {found.milliseconds:.1f} ms"
-    columns = ("row", "x at top", "x at bottom", "angle", "score")
-    rows = [
-        (
-            str(number),
-            f"{row.x_top_px:.1f} px",
-            f"{row.x_bottom_px:.1f} px",
-            f"{found.angle_deg(row):+.2f} deg",
-            f"{row.confidence:.2f}",
-        )
-        for number, row in enumerate(lines, start=1)
-    ]
-    print(title)
-    if rows:
-        out().print(table("", columns, rows, right=columns))
-    print()
+    write_picture(path, draw_detection(found))

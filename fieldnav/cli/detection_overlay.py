@@ -1,74 +1,67 @@
-"""A picture with its rows and plants drawn in, and the field-structure signal beneath (paper III-A.2)."""
-
-from dataclasses import replace
-from math import ceil
+"""A picture with what was found drawn in, a line that says how, and the field-structure signal beneath."""
 
 import cv2
 import numpy as np
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.figure import Figure
 
-from fieldnav.cli.pictures import Detection
-from fieldnav.cli.structure_graph import ROW_COLOUR, draw_structure
-from fieldnav.messages import Floats, Image, RowLine
+from fieldnav.cli.detection import Detection
+from fieldnav.cli.detection_colours import LEAF_BGR, PAPER
+from fieldnav.cli.overlay_caption import write_caption
+from fieldnav.cli.row_curves import draw_found
+from fieldnav.cli.structure_graph import draw_structure
+from fieldnav.messages import Image
 
-PLANT_BGR = (230, 60, 230)
-LEAF_BGR = (80, 255, 120)
-SHADOW_BGR = (20, 20, 20)
-"""A darker edge keeps lines and dots legible on leaves as on soil."""
-
-WIDTH_OF_ONE_PX = 640
-"""Image width at which lines are one pixel wide."""
-LEAST_WIDTH_PX = 960
-"""Smaller pictures are shown so many whole times larger that the graph can be read."""
-HALF = 0.5
-FRACTION_BITS = 3
-"""OpenCV places lines to eighths of a pixel when told so."""
+LEAST_WIDTH_PX, MOST_WIDTH_PX, MOST_HEIGHT_PX = 1280, 1920, 2400
+"""Pictures outside these are shown larger or smaller, so that the writing can be read and the whole seen."""
+WIDTH_INCH = 12.8
+"""The overlay is laid out at this width, whatever the picture's size, so that it always looks the same."""
+CAPTION_HEIGHT, GRAPH_HEIGHT = 0.042, 0.17
+"""Over the width."""
+ROUNDING_PX = 0.01
+"""Added to a figure's sides, since Matplotlib rounds what the division left down."""
+PALE = 0.55
+"""Of its colour the ground loses so much, that leaves, rows and plants stand out."""
+TINT = 0.4
+"""Of the tint where vegetation is strongest."""
+FULL_SCALE = 255
 
 
 def draw_detection(found: Detection) -> Image:
-    """The picture with rows, leaf edges and plants drawn in, above its field-structure signal."""
-    times = ceil(LEAST_WIDTH_PX / found.camera.width_px)
-    canvas = _enlarged(found.image, times)
-    unit = max(1, round(canvas.shape[1] / WIDTH_OF_ONE_PX))
-    mask = _enlarged(found.view.mask.astype(np.uint8), times)
-    edges, _ = cv2.findContours(mask, cv2.RETR_LIST, cv2.CHAIN_APPROX_NONE)
-    cv2.drawContours(canvas, edges, -1, LEAF_BGR, max(1, unit // 2), cv2.LINE_AA)
-    lines = [_moved(row, times) for row in found.view.lines]
-    for row in lines:
-        _draw_row(canvas, row, SHADOW_BGR, 3 * unit)
-        _draw_row(canvas, row, ROW_COLOUR.bgr, 2 * unit)
-    for x, y in _centre_px(found.view.centres.position_px, times).tolist():
-        _draw_dot(canvas, (x, y), 3 * unit, SHADOW_BGR)
-        _draw_dot(canvas, (x, y), 2 * unit, PLANT_BGR)
-    camera = replace(found.camera, width_px=canvas.shape[1], height_px=canvas.shape[0])
-    graph = draw_structure(found.view.structure, lines, camera, found.stride_px * times)
-    return np.concatenate([canvas, graph])
+    """The overlay, shape (height, width, 3), blue green red; the picture is its upper part."""
+    picture = _shown(found)
+    height_px, width_px = picture.shape[:2]
+    caption_px, graph_px = (max(1, round(share * width_px)) for share in (CAPTION_HEIGHT, GRAPH_HEIGHT))
+    whole_px, dots = height_px + caption_px + graph_px, width_px / WIDTH_INCH
+    size = ((width_px + ROUNDING_PX) / dots, (whole_px + ROUNDING_PX) / dots)
+    figure = Figure(figsize=size, dpi=dots, facecolor=PAPER)
+    canvas = FigureCanvasAgg(figure)
+    graph = figure.add_axes((0, 0, 1, graph_px / whole_px))
+    caption = figure.add_axes((0, graph_px / whole_px, 1, caption_px / whole_px))
+    above = figure.add_axes((0, (graph_px + caption_px) / whole_px, 1, height_px / whole_px))
+    edges = (-0.5, found.width_px - 0.5, found.height_px - 0.5, -0.5)
+    above.imshow(picture[:, :, ::-1], extent=edges, aspect="auto", interpolation="nearest")
+    draw_found(above, found)
+    above.set_axis_off()
+    above.set(xlim=edges[:2], ylim=edges[2:])
+    write_caption(caption, found)
+    draw_structure(graph, found)
+    graph.set_xlim(*edges[:2])
+    canvas.draw()  # type: ignore[no-untyped-call]  # matplotlib types its backends in part
+    drawn = np.asarray(canvas.buffer_rgba())[:, :, 2::-1]  # type: ignore[no-untyped-call]  # the same
+    return np.ascontiguousarray(drawn, dtype=np.uint8)
 
 
-def _enlarged(image: Image, times: int) -> Image:
-    """Every pixel `times` wide and high."""
-    return np.ascontiguousarray(image.repeat(times, axis=0).repeat(times, axis=1))
-
-
-def _centre_px(place_px: Floats, times: int) -> Floats:
-    """Where a place of the picture lies in the enlarged one; pixels count from the middle of the first."""
-    return (place_px + HALF) * times - HALF
-
-
-def _moved(row: RowLine, times: int) -> RowLine:
-    top, bottom = _centre_px(np.array([row.x_top_px, row.x_bottom_px]), times).tolist()
-    return RowLine(top, bottom, row.confidence)
-
-
-def _draw_row(canvas: Image, row: RowLine, colour: tuple[int, int, int], thickness: int) -> None:
-    top = (_fixed(row.x_top_px), 0)
-    bottom = (_fixed(row.x_bottom_px), _fixed(canvas.shape[0] - 1))
-    cv2.line(canvas, top, bottom, colour, thickness, cv2.LINE_AA, FRACTION_BITS)
-
-
-def _draw_dot(canvas: Image, at: tuple[float, float], radius: int, colour: tuple[int, int, int]) -> None:
-    centre = (_fixed(at[0]), _fixed(at[1]))
-    cv2.circle(canvas, centre, _fixed(radius), colour, cv2.FILLED, cv2.LINE_AA, FRACTION_BITS)
-
-
-def _fixed(value_px: float) -> int:
-    return round(value_px * (1 << FRACTION_BITS))
+def _shown(found: Detection) -> Image:
+    """The picture at a size fit to look at, its ground paler and its vegetation tinted."""
+    width = min(max(found.width_px, LEAST_WIDTH_PX), MOST_WIDTH_PX)
+    scale = min(width / found.width_px, MOST_HEIGHT_PX / found.height_px)
+    size = (max(1, round(found.width_px * scale)), max(1, round(found.height_px * scale)))
+    way = cv2.INTER_CUBIC if scale > 1 else cv2.INTER_AREA
+    picture = np.asarray(cv2.resize(found.image, size, interpolation=way), np.float32)
+    strength = cv2.resize(found.view.cover.strength, size, interpolation=cv2.INTER_LINEAR)
+    strong = np.sqrt(np.asarray(strength, np.float32)[:, :, None] / FULL_SCALE)
+    grey = picture.mean(axis=2, keepdims=True)
+    pale = picture + PALE * (1 - strong) * (grey - picture)
+    tinted = pale + TINT * strong * (LEAF_BGR - pale)
+    return np.asarray(tinted.clip(0, FULL_SCALE), np.uint8)

@@ -1,55 +1,35 @@
-"""Pictures given on the command line: read and checked, their rows found, overlays written."""
+"""Pictures given on the command line, read and checked, and pictures with rows drawn in, written."""
 
 import tempfile
 from collections.abc import Sequence
-from dataclasses import dataclass
-from math import atan2, degrees
 from pathlib import Path
-from time import perf_counter
 
 import cv2
 import numpy as np
+from pydantic import Field
 
 from fieldnav.errors import OutputError, SettingsError
 from fieldnav.journal.files import write_atomically
-from fieldnav.messages import Image, RowLine
-from fieldnav.perception.perceive import View, find
-from fieldnav.pinhole import Pinhole
-from fieldnav.settings.crop import CropProfile
+from fieldnav.messages import Image
 from fieldnav.settings.loading import revised
+from fieldnav.settings.model import Settings
 from fieldnav.settings.regular_file import read_regular
-from fieldnav.settings.robot import LARGEST_SIDE_PX, CameraSettings
+from fieldnav.settings.robot import LARGEST_SIDE_PX
 
 LARGEST_FILE_BYTES = 4 * LARGEST_SIDE_PX**2
 """Of a picture; room for the largest one without compression and with an alpha channel."""
-MILLISECONDS = 1000.0
+SMALLEST_WIDTH_PX, SMALLEST_HEIGHT_PX = 64, 48
+"""The least that a robot's camera may have."""
 OVERLAY_SUFFIX = "-rows.jpg"
 OVERLAY_QUALITY = 92
 """Of the JPEG, per cent."""
 
 
-@dataclass(frozen=True, slots=True)
-class Detection:
-    """A picture and what was found in it.
+class PictureSize(Settings):
+    """The size of a picture in which rows can be looked for, whatever camera took it."""
 
-    camera: the robot's, at the picture's size; stride_px: from one place of the sliding window to the next.
-    """
-
-    path: str
-    image: Image
-    camera: Pinhole
-    view: View
-    stride_px: float
-    milliseconds: float
-
-    def angle_deg(self, row: RowLine) -> float:
-        """A row's angle from the image's vertical, positive clockwise."""
-        return degrees(atan2(row.x_top_px - row.x_bottom_px, self.camera.height_px - 1))
-
-
-def check(path: str, settings: CameraSettings) -> None:
-    """Raise SettingsError when the file is no picture that rows can be looked for in."""
-    camera_of(read_picture(path), path, settings)
+    width_px: int = Field(default=SMALLEST_WIDTH_PX, ge=SMALLEST_WIDTH_PX, le=LARGEST_SIDE_PX)
+    height_px: int = Field(default=SMALLEST_HEIGHT_PX, ge=SMALLEST_HEIGHT_PX, le=LARGEST_SIDE_PX)
 
 
 def read_picture(path: str) -> Image:
@@ -61,6 +41,7 @@ def read_picture(path: str) -> Image:
             f"{path}: is no whole picture; allowed is JPEG, PNG, TIFF, BMP or WebP of at most "
             f"{LARGEST_SIDE_PX} px a side"
         )
+    revised(PictureSize(), {"width_px": image.shape[1], "height_px": image.shape[0]}, path)
     return image
 
 
@@ -74,25 +55,6 @@ def _decoded(content: bytes) -> Image | None:
     finally:
         cv2.utils.logging.setLogLevel(level)
     return None if image is None else np.asarray(image, dtype=np.uint8)
-
-
-def camera_of(image: Image, path: str, settings: CameraSettings) -> Pinhole:
-    """The robot's camera as if its pictures had this size: the field of view stays.
-
-    Raises SettingsError for a size that no camera has, and for one so tall that it shows the horizon.
-    """
-    size = {"width_px": image.shape[1], "height_px": image.shape[0]}
-    return revised(settings, size, path).pinhole()
-
-
-def detect_rows(path: str, crop: CropProfile, settings: CameraSettings) -> Detection:
-    """Find every row of a picture; the time is that of the finding alone. Raises SettingsError."""
-    image = read_picture(path)
-    camera = camera_of(image, path, settings)
-    started = perf_counter()
-    view = find(image, crop, camera)
-    milliseconds = (perf_counter() - started) * MILLISECONDS
-    return Detection(path, image, camera, view, crop.finding.stride * camera.width_px, milliseconds)
 
 
 def overlay_paths(images: Sequence[str], folder: Path) -> dict[str, Path]:

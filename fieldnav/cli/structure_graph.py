@@ -1,108 +1,100 @@
 """The field-structure signal as a graph that goes with the picture above it (paper III-A.2)."""
 
-from collections.abc import Sequence
-from dataclasses import dataclass
-
-import cv2
 import numpy as np
 from matplotlib.axes import Axes
-from matplotlib.backends.backend_agg import FigureCanvasAgg
-from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
-from fieldnav.messages import Floats, Image, RowLine
-from fieldnav.perception.moving_variance import FieldStructure
-from fieldnav.pinhole import Pinhole
+from fieldnav.cli.detection import Detection
+from fieldnav.cli.detection_colours import (
+    GRID,
+    INK,
+    PAPER,
+    PEAK,
+    SHADOW,
+    SIGNAL,
+    TROUGH,
+    edged,
+    of_confidence,
+)
+from fieldnav.cli.row_curves import crossings_px, draw_marks
+from fieldnav.messages import Floats
+from fieldnav.perception.moving_variance import FieldStructure, field_structure
 
-HEIGHT = 0.19
-"""Of the graph, over the picture's width."""
-WIDTH_INCH = 12.8
-"""The graph is laid out at this width, whatever the picture's size, so that it always looks the same."""
-HEADROOM, FLOOR = 1.3, -0.12
-"""The axis reaches so many times above the signal, and so far below zero to hold the rows' marks."""
-LEGEND_COLUMNS, MOST_TICKS = 4, 4
-MARK_SIZE, MARK_EDGE = 9.0, 1.8
-
-
-@dataclass(frozen=True, slots=True)
-class Colour:
-    """A colour for both libraries that draw."""
-
-    red: int
-    green: int
-    blue: int
-
-    @property
-    def bgr(self) -> tuple[int, int, int]:
-        return self.blue, self.green, self.red
-
-    @property
-    def hex(self) -> str:
-        return f"#{self.red:02x}{self.green:02x}{self.blue:02x}"
+HEADROOM, FLOOR = 1.42, -0.14
+"""The axis reaches so many times above the signal, for writing, and so far below zero, for the rows."""
+LEGEND_COLUMNS, MOST_TICKS = 4, 3
+MARK_SIZE, MARK_EDGE, LINE, THIN = 7.5, 1.6, 1.6, 0.8
+FONT_SIZE, TICK_SIZE = 9.5, 8.5
+INSET, UPPER = 0.006, 0.95
+"""Of the axes' width and height: where the writing begins."""
 
 
-ROW_COLOUR = Colour(255, 196, 0)
-SIGNAL, PEAK, TROUGH, INK, PAPER, GRID = "#2f6db3", "#c8352b", "#2d8a3e", "#333333", "#fbfaf7", "#dddad2"
-
-
-def draw_structure(
-    structure: FieldStructure, rows: Sequence[RowLine], camera: Pinhole, stride_px: float
-) -> Image:
+def draw_structure(axes: Axes, found: Detection) -> None:
     """The signal over the windows' middles, its peaks and troughs, and where the rows pass at mid-height.
 
-    The windows lie `stride_px` apart. Returns shape (width * HEIGHT, width, 3), blue green red.
+    The axes' x is the picture's, in pixels.
     """
-    width_px, height_px = camera.width_px, max(1, round(camera.width_px * HEIGHT))
-    dots = width_px / WIDTH_INCH
-    figure = Figure(figsize=(WIDTH_INCH, height_px / dots), dpi=dots, facecolor=PAPER)
-    canvas = FigureCanvasAgg(figure)
-    axes = figure.add_axes((0, 0, 1, 1), facecolor=PAPER)
-    count = len(structure.variance)
-    middles_px = np.asarray(
-        camera.centre_x_px + stride_px * (np.arange(count) - (count - 1) / 2), dtype=np.float64
-    )
-    _draw_signal(axes, middles_px, structure)
-    _draw_rows(axes, [(row.x_top_px + row.x_bottom_px) / 2 for row in rows])
-    _dress(axes, structure, camera)
-    canvas.draw()  # type: ignore[no-untyped-call]  # matplotlib types its backends in part
-    drawn = np.asarray(canvas.buffer_rgba())[:, :, 2::-1]  # type: ignore[no-untyped-call]  # the same
-    return np.asarray(cv2.resize(np.ascontiguousarray(drawn), (width_px, height_px)), dtype=np.uint8)
+    _clear(axes)
+    if found.camera is None:
+        _write_title(axes, "field structure: not known without plants, nor those without the camera")
+        return
+    structure = field_structure(found.view.centres, found.finding, found.camera)
+    highest = _highest(structure.variance)
+    axes.set_ylim(FLOOR * highest, HEADROOM * highest)
+    _draw_signal(axes, _middles_px(len(structure.variance), found), structure)
+    _draw_rows(axes, found, highest)
+    _draw_scale(axes, highest)
+    _write_title(axes, "field structure: moving variance of the window lines' angle, deg²")
+    axes.legend(loc="upper right", ncols=LEGEND_COLUMNS, fontsize=FONT_SIZE, frameon=False, borderaxespad=0.3)
+
+
+def _highest(variance: Floats) -> float:
+    return float(variance[np.isfinite(variance)].max(initial=0)) or 1.0
+
+
+def _middles_px(count: int, found: Detection) -> Floats:
+    """The middles of so many windows."""
+    from_middle = np.arange(count) - (count - 1) / 2
+    return np.asarray((found.width_px - 1) / 2 + found.finding.stride * found.width_px * from_middle)
 
 
 def _draw_signal(axes: Axes, x: Floats, structure: FieldStructure) -> None:
     y = structure.variance
     axes.fill_between(x, 0, y, color=SIGNAL, alpha=0.12, linewidth=0)
-    axes.plot(x, y, color=SIGNAL, linewidth=1.6, marker=".", markersize=4, label="moving variance")
-    marks = ((structure.peaks, "^", PEAK, "peaks"), (structure.troughs, "v", TROUGH, "troughs"))
+    axes.plot(x, y, color=SIGNAL, linewidth=LINE, label="moving variance")
+    marks = ((structure.peaks, "^", PEAK, "peak"), (structure.troughs, "v", TROUGH, "trough"))
     for indices, marker, colour, label in marks:
         at = indices[(indices >= 0) & (indices < len(x))]
         (drawn,) = axes.plot(x[at], y[at], linestyle="none", marker=marker, label=label, zorder=3)
         drawn.set(color=colour, markerfacecolor=PAPER, markeredgewidth=MARK_EDGE, markersize=MARK_SIZE)
 
 
-def _draw_rows(axes: Axes, x: Sequence[float]) -> None:
-    label = "rows at mid-height"
-    (drawn,) = axes.plot(x, np.zeros(len(x)), linestyle="none", marker="s", label=label, zorder=4)
-    drawn.set(markersize=MARK_SIZE, markerfacecolor=ROW_COLOUR.hex, markeredgecolor=INK)
-    for each in x:
-        axes.axvline(each, color=ROW_COLOUR.hex, linewidth=1.5, zorder=1)
+def _draw_rows(axes: Axes, found: Detection, highest: float) -> None:
+    x = crossings_px(found)
+    for place, row in zip(x.tolist(), found.view.lines, strict=True):
+        colour = of_confidence(row.confidence)
+        (line,) = axes.plot([place, place], [0, highest], color=colour, linewidth=LINE, zorder=1)
+        line.set_path_effects(edged(LINE + THIN))
+    draw_marks(axes, x, np.zeros(len(x)), found)
+    axes.plot([], [], "s", color=of_confidence(1.0), markeredgecolor=SHADOW, label="row at mid-height")
 
 
-def _dress(axes: Axes, structure: FieldStructure, camera: Pinhole) -> None:
-    known = structure.variance[np.isfinite(structure.variance)]
-    highest = float(known.max(initial=0)) or 1.0
-    axes.set_xlim(-0.5, camera.width_px - 0.5)
-    axes.set_ylim(FLOOR * highest, HEADROOM * highest)
+def _draw_scale(axes: Axes, highest: float) -> None:
     ticks = [tick for tick in MaxNLocator(MOST_TICKS).tick_values(0, highest) if 0 < tick <= highest]
-    axes.set_yticks(ticks)
-    axes.grid(axis="y", color=GRID, linewidth=0.8)
-    axes.set_axisbelow(True)
-    axes.axhline(0, color=INK, linewidth=0.8)
-    axes.tick_params(length=0, labelbottom=False, labelleft=False)
+    across = axes.get_yaxis_transform()
     for tick in ticks:
-        axes.annotate(f"{tick:g}", (0.006, tick), xycoords=axes.get_yaxis_transform(), color=INK, fontsize=9)
+        axes.axhline(tick, color=GRID, linewidth=THIN, zorder=0)
+        axes.text(INSET, tick, f"{tick:g}", transform=across, color=INK, fontsize=TICK_SIZE, va="bottom")
+    axes.axhline(0, color=INK, linewidth=THIN)
+
+
+def _clear(axes: Axes) -> None:
+    """Nothing but paper: the picture above is the frame."""
+    axes.set_facecolor(PAPER)
+    axes.tick_params(length=0, labelbottom=False, labelleft=False)
     for spine in axes.spines.values():
         spine.set_visible(False)
-    title = "moving variance of the window lines' angles, deg2"
-    axes.text(0.006, 0.95, title, transform=axes.transAxes, fontsize=11, color=INK, va="top")
-    axes.legend(loc="upper right", ncols=LEGEND_COLUMNS, fontsize=10, facecolor=PAPER, edgecolor=GRID)
+
+
+def _write_title(axes: Axes, title: str) -> None:
+    axes.text(INSET, UPPER, title, transform=axes.transAxes, fontsize=FONT_SIZE, color=INK, va="top")

@@ -32,10 +32,8 @@ IMAGES_A_SEED = 10  # pictures of one sown field under one sun
 LONGEST_FIELD_M = 40.0  # one whole bend of the curved field; more would only cost time
 TILT_DEG = (55.0, 75.0)  # paper
 WIDEST_OFFSET_M, WIDEST_HEADING_RAD = 0.10, radians(5.0)  # of the robot's centre from its lane; our choice
-ELEVATION_DEG, AZIMUTH_DEG = (
-    (20.0, 70.0),
-    (-180.0, 180.0),
-)  # of the sun in the working hours of a summer's day
+ELEVATION_DEG, AZIMUTH_DEG = (20.0, 70.0), (-180.0, 180.0)  # of the sun; lower than 20 it is dusk
+DRIVE_S, FRAMES = 600.0, 9000  # moments to draw from: ten minutes at 15 frames/s
 REACH_M = 3.0  # a picture shows no ground further from the robot's centre
 POINT_STEP_M = 0.02  # between the points of a true row
 NEAREST_M = 0.1  # along the camera's axis; what lies behind the lens has no place in the picture
@@ -90,7 +88,7 @@ class Scene:
 
     def shoot(self, place: Place, tilt_rad: float, random: np.random.Generator) -> Shot:
         """Take a picture while driving; shaking and the calibration's errors are drawn anew."""
-        time_s, sequence = random.uniform(0, 60), int(random.integers(1 << 16))
+        time_s, sequence = random.uniform(0, DRIVE_S), int(random.integers(FRAMES))
         view = self._view(place, tilt_rad, time_s, random)
         told = replace(self.camera, tilt_rad=tilt_rad)
         across_px = float(told.pixels_per_metre(told.centre_y_px))
@@ -184,7 +182,9 @@ def rendered_rows(plan: Plan, progress: Progress) -> list[Figure]:
 def field_figures(field: FieldSettings, count: int, seed: int, progress: Progress) -> list[Figure]:
     """Three figures of one field for each method, from so many pictures; fields are sown from `seed` on."""
     crop, random = load_crop(field.crop), np.random.default_rng(seed)
-    scores: dict[RowFinder, list[Floats]] = {method: [] for method in RowFinder}
+    usual = crop.finding.method
+    methods = sorted(RowFinder, key=lambda method: method is not usual)
+    scores: dict[RowFinder, list[Floats]] = {method: [] for method in methods}
     for image in range(count):
         progress(field.name, image, count)
         if image % IMAGES_A_SEED == 0:
@@ -193,7 +193,7 @@ def field_figures(field: FieldSettings, count: int, seed: int, progress: Progres
         for method, so_far in scores.items():
             so_far.append(score(shot.truth, lane_found(shot, with_method(crop, method)), shot.camera))
     progress(field.name, count, count)
-    usual, figures = crop.finding.method, []
+    figures = []
     for method, scored in scores.items():
         figures += _figures(field.name, np.concatenate(scored), method, usual)
     return figures

@@ -22,36 +22,29 @@ from fieldnav.simulation.stand import Stand
 Maker = Callable[[np.random.Generator], Image]
 
 IMAGES, QUICK_IMAGES = 9, 2  # of each kind
-KNOWN, UNKNOWN = (f"pictures without a row reported{how} (share)" for how in ("", ", camera not known"))
+KNOWN = "pictures without a row reported (share)"
+UNKNOWN = "pictures without a row reported, camera not known (share)"
 REPORTED = 0.5  # confidence from which a row counts as reported
 FULL, GREY = 255, 128  # grey levels
-PLOT_M, BEYOND_M = (
-    12.0,
-    0.4,
-)  # length of the rendered plots; how far past the rows the robot stands on the headland
+SEEDS = 10_000  # of plots to draw from
+PLOT_M = 12.0  # length of the rendered plots
+BEYOND_M = 0.4  # how far past the rows' ends the robot stands on the headland
 SOILS_BGR = ((72, 96, 122), (40, 55, 70), (110, 140, 165), (60, 80, 140), (95, 105, 110), (50, 70, 80))
 SMALL_M, LARGE_M = (0.02, 0.05), (0.08, 0.20)  # diameter of weeds
 SPARSE, DENSE, HEADLAND = (2.0, 20.0), (20.0, 60.0), (0.0, 5.0)  # weeds to a square metre
-SKEW_RAD, AHEAD_RAD = (
-    pi / 3,
-    0.1,
-)  # how far the robot may be turned in a plot without rows, and at the rows' ends
+SKEW_RAD, AHEAD_RAD = pi / 3, 0.1  # most that the robot is turned in a plot without rows, past rows' ends
 SHAPE = (720, 1280)  # of drawn pictures
 SIZES_PX = ((9, 9), (2000, 16), (48, 64), (16, 2000))  # height, width
 GREEN_BGR, SKY_BGR, HAZE_BGR = (40, 160, 60), (200, 130, 60), (240, 210, 180)
-GRASS_BGR, GRASS_SHADES, BLADE_PX = (
-    (45, 120, 70),
-    (15, 40, 20),
-    (1.0, 9.0),
-)  # middle colour, its spread, a blade
+GRASS_BGR, GRASS_SHADES_BGR = (45, 120, 70), (15, 40, 20)  # middle colour and its standard deviation
+BLADE_PX = (1.0, 9.0)  # half width and half height, about
 CLOUD_PX = 60.0
-NOISE_SIGMA, SALT_SHARE, JPEG_QUALITY = 40.0, 0.05, 25
-RUT_BRIGHTNESS, RUT_WIDTH, RUT_PLACES, FAR_SCALE = (
-    0.65,
-    0.12,
-    (0.2, 0.35),
-    0.6,
-)  # shares; the last at the top edge
+NOISE_SIGMA = 40.0  # the most, in grey levels
+SALT_SHARE = 0.05  # and as much pepper
+JPEG_QUALITY = 25  # per cent; below the camera's, so that the blocks show
+RUT_BRIGHTNESS = 0.65  # of the soil's beside it
+RUT_WIDTH, RUT_PLACES = 0.12, (0.2, 0.35)  # over the picture's width at its lower edge; places off its middle
+FAR_SCALE = 0.6  # of both, at the upper edge
 
 
 def rowless(plan: Plan, progress: Progress) -> list[Figure]:
@@ -133,7 +126,7 @@ def _plot(random: np.random.Generator, weedy: Weeds) -> FieldSettings:
         crop="sugar-beet",
         lanes=1,
         length_m=PLOT_M,
-        seed=int(random.integers(1 << 16)),
+        seed=int(random.integers(SEEDS)),
         weeds=weedy,
         light=Light(sun_azimuth_deg=random.uniform(*AZIMUTH_DEG), sunshine=sunshine),
         ground=Ground(colour_bgr=colour, roughness=roughness, residue=residue, stones=stones),
@@ -175,7 +168,7 @@ def grass(random: np.random.Generator) -> Image:
     """Blades of all greens over the whole picture."""
     blades = cv2.GaussianBlur(random.standard_normal(SHAPE), (0, 0), BLADE_PX[0], sigmaY=BLADE_PX[1])
     shade = (blades / blades.std())[..., None]
-    return _clipped(np.array(GRASS_BGR) + shade * np.array(GRASS_SHADES))
+    return _clipped(np.array(GRASS_BGR) + shade * np.array(GRASS_SHADES_BGR))
 
 
 def plain(colour_bgr: tuple[int, int, int]) -> Maker:

@@ -1,7 +1,7 @@
 """A picture's vegetation as horizontal bands, and their spectra: what a search for periodic rows works on.
 
-Positions across the picture are in picture widths from its middle column, to the right; the height of a band is
-`level`, from -0.5 at the upper edge to 0.5 at the lower. So nothing here depends on the picture's size.
+Positions across the picture are in picture widths from its middle column, to the right; a band's height is
+its `level`, from -0.5 at the upper edge to 0.5 at the lower: nothing here depends on the picture's size.
 """
 
 from dataclasses import dataclass
@@ -23,6 +23,8 @@ LEAST_SHARE = 0.3  # of the mean band's vegetation that is added to it before
 Complexes = NDArray[np.complex64]
 LEVEL: Floats = (np.arange(COUNT) + 0.5) / COUNT - 0.5
 """Where the bands lie, shape (COUNT,)."""
+STRETCHES: Floats = np.repeat(np.eye(6), COUNT // 6, axis=1)
+"""Which bands each of six stretches of the height holds, shape (6, COUNT)."""
 _MIDDLE = np.exp(2j * np.pi * np.arange(BINS // 2 + 1) * ((COLUMNS - 1) / 2) / BINS).astype(np.complex64)
 _BAND = np.arange(COUNT)[:, None]
 
@@ -46,9 +48,14 @@ class Bands:
         return np.asarray(fft.rfft(self.even, BINS, axis=1) * _MIDDLE, np.complex64)
 
     @cached_property
-    def span(self) -> float:
-        """The most that a template of unit mean square can respond with."""
-        return float(np.sqrt(COLUMNS * (self.even**2).sum(axis=1)).sum())
+    def span(self) -> Floats:
+        """The most that a template of unit mean square can respond with in each band, shape (COUNT,)."""
+        return np.asarray(np.sqrt(COLUMNS * (self.even.astype(float) ** 2).sum(axis=1)))
+
+    @property
+    def empty(self) -> bool:
+        """Whether nothing stands out."""
+        return not self.span.any()
 
     def at(self, cycles: Floats) -> Complexes:
         """The spectrum at frequencies in cycles per picture width, shape (COUNT, n); 0 where it has none."""

@@ -1,4 +1,4 @@
-"""The better row finder: the comb of parallel rows that explains the vegetation best, then each row by itself."""
+"""The comb finder: the parallel rows that explain the vegetation best together, then each by itself."""
 
 import numpy as np
 
@@ -6,12 +6,13 @@ from fieldnav.messages import Floats, RowLine
 from fieldnav.perception.bands import LEVEL, Bands, bands_of
 from fieldnav.perception.comb_refinement import Stiffness, refine
 from fieldnav.perception.comb_rows import CombRows, rows_of
+from fieldnav.perception.found import Found
 from fieldnav.perception.periodogram import SearchRange, candidates
 from fieldnav.perception.row_comb import RowComb
 from fieldnav.perception.row_confidence import confidence_of
 from fieldnav.perception.vegetation import Cover
 
-STEEP_VIEW = Stiffness(1, 1, middle=1.0, spacing=1.0, start=0.25, end=0.12, rounds=5, keep=0.1)
+STEEP_VIEW = Stiffness(1, 1, middle=1.0, spacing=1.0, start=0.25, end=0.12, rounds=4, keep=0.1)
 """A camera that looks down sees a metre or two of the rows: they are straight there."""
 OBLIQUE_VIEW = (
     Stiffness(6, 2, middle=0.006, spacing=0.6, start=0.3, end=0.25, rounds=4),
@@ -19,31 +20,24 @@ OBLIQUE_VIEW = (
 )
 """One that looks ahead sees bends and hills."""
 OBLIQUE = 0.8  # convergence from which on a view is one that looks ahead
-LEAST_CONFIDENCE = 0.5  # a row less sure than this is not reported
 
 
 def find_comb(cover: Cover, tried: SearchRange) -> tuple[RowComb, Bands] | None:
     """The comb that fits the vegetation best among those tried; None where nothing grows."""
     bands = bands_of(cover.strength)
-    combs = [_refined(comb, bands) for comb in candidates(bands, tried)[: tried.candidates]]
+    combs = [_refined(comb, bands) for comb in candidates(bands, tried)[: tried.refined]]
     return (max(combs, key=lambda comb: comb.response(bands)), bands) if combs else None
 
 
-def rows_in(comb: RowComb, bands: Bands, cover: Cover) -> tuple[tuple[RowLine, ...], Floats]:
-    """The rows of a comb that are surely there, left to right, and their curves.
-
-    Returns lines, each the straight one nearest to its curve, and curves, shape (rows, points, 2), x and y in
-    pixels from the upper edge to the lower.
-    """
+def rows_in(comb: RowComb, bands: Bands, cover: Cover) -> Found:
+    """Every row of a comb, whether plants bear it out or not: its confidence tells."""
     rows = rows_of(comb, bands)
-    sure = confidence_of(rows)
-    kept = np.flatnonzero(sure >= LEAST_CONFIDENCE)
-    curves = _curves_px(rows, cover)[kept]
+    curves = _curves_px(rows, cover)
     lines = tuple(
         _line(curve, comb, float(confidence), cover)
-        for curve, confidence in zip(curves, sure[kept], strict=True)
+        for curve, confidence in zip(curves, confidence_of(rows, comb, bands), strict=True)
     )
-    return lines, curves
+    return Found(lines, curves)
 
 
 def convergence_of(comb: RowComb) -> float:

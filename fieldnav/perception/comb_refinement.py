@@ -1,4 +1,4 @@
-"""A comb fitted to the vegetation near its teeth: smooth curves for its middle and its spacing over the height."""
+"""A comb fitted to the vegetation near its teeth: smooth curves for its middle and its spacing."""
 
 from dataclasses import dataclass
 
@@ -41,8 +41,8 @@ class Stiffness:
 class Teeth:
     """The vegetation about every tooth.
 
-    numbers: of the rows, shape (rows,); profile: strength across a tooth less what lies between the rows, shape
-    (rows, COUNT, SAMPLES); whole: which teeth lie wholly in the picture, shape (rows, COUNT).
+    numbers: of the rows, shape (rows,); profile: strength across a tooth less what lies between the rows,
+    shape (rows, COUNT, SAMPLES); whole: which teeth lie wholly in the picture, shape (rows, COUNT).
     """
 
     numbers: Floats

@@ -1,28 +1,20 @@
 """The row finders that a crop profile can choose between, behind one small interface."""
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
 
 import numpy as np
 
-from fieldnav.messages import Centres, Floats, RowLine
+from fieldnav.messages import Centres
 from fieldnav.perception import moving_variance
 from fieldnav.perception.canopy import canopy_plane, line_px
 from fieldnav.perception.comb_finder import find_comb, rows_in
+from fieldnav.perception.found import NO_ROWS, Found
 from fieldnav.perception.ground_plants import on_ground
 from fieldnav.perception.search_range import range_of
 from fieldnav.perception.settle import settle_lines
 from fieldnav.perception.vegetation import Cover
 from fieldnav.pinhole import Pinhole
 from fieldnav.settings.crop import CropProfile, RowFinder
-
-
-@dataclass(frozen=True, slots=True)
-class Found:
-    """Rows from left to right, as straight lines and as curves, shape (rows, points, 2), x and y in pixels."""
-
-    lines: tuple[RowLine, ...]
-    paths_px: Floats
 
 
 def find_rows(
@@ -44,10 +36,9 @@ def _by_moving_variance(
 
 def _by_comb(cover: Cover, centres: Centres, crop: CropProfile, camera: Pinhole, surely: bool) -> Found:
     found = find_comb(cover, range_of(canopy_plane(camera, crop), crop, surely))
-    return Found(*rows_in(*found, cover)) if found else NO_ROWS
+    return rows_in(*found, cover) if found else NO_ROWS
 
 
-NO_ROWS = Found((), np.empty((0, 0, 2)))
 _FINDERS: Mapping[RowFinder, Callable[[Cover, Centres, CropProfile, Pinhole, bool], Found]] = {
     RowFinder.MOVING_VARIANCE: _by_moving_variance,
     RowFinder.COMB: _by_comb,

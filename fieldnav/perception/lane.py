@@ -24,7 +24,8 @@ class LaneFit:
     rows: one line for each row of the lane, left to right, confidence 0 for those filled in; offset_m and
     slope: the lane's middle on the ground, y = offset + slope x in the camera's ground coordinates;
     rows_seen: how many of the rows were really found; spacing_m: distance between neighbouring rows as found
-    (NaN with fewer than two); misfit_m: rms distance of the rows found from their places in the comb.
+    (NaN with fewer than two); misfit_m: rms distance of the rows found from their places in the comb;
+    confidence: the probability that the lane is there.
     """
 
     rows: tuple[RowLine, ...]
@@ -33,6 +34,7 @@ class LaneFit:
     rows_seen: int
     spacing_m: float
     misfit_m: float
+    confidence: float = 0.0
 
 
 def comb_m(crop: CropProfile) -> Floats:

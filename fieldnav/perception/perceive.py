@@ -3,7 +3,8 @@
 from dataclasses import dataclass
 
 from fieldnav.messages import Centres, Floats, Image, RowLine
-from fieldnav.perception.finders import Found, find_rows
+from fieldnav.perception.finders import find_rows
+from fieldnav.perception.found import Found
 from fieldnav.perception.ground_plants import on_ground
 from fieldnav.perception.lane import LaneFit, lane_rows
 from fieldnav.perception.plants import plants_in
@@ -18,8 +19,8 @@ class View:
     """What one frame shows.
 
     cover and centres: its vegetation and the plants; lines: every row it shows, left to right; paths_px: the
-    same rows as curves, shape (rows, points, 2), x and y from the upper edge to the lower; lane: the rows under
-    the robot, None when there are none.
+    same rows as curves, shape (rows, points, 2), x and y from the upper edge to the lower; lane: the rows
+    under the robot, None when there are none.
     """
 
     cover: Cover
@@ -44,7 +45,8 @@ def find(
     centres = plants_in(cover, crop.vegetation, camera)
     found = find_rows(cover, centres, crop, camera, surely)
     lane = _lane(found, centres, crop, camera, widest_offset_m)
-    return View(cover, centres, found.lines, found.paths_px, lane)
+    sure = found.sure()
+    return View(cover, centres, sure.lines, sure.paths_px, lane)
 
 
 def lane_of(

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from fieldnav.messages import Floats
-from fieldnav.perception.bands import Bands
+from fieldnav.perception.bands import Bands, Complexes
 from fieldnav.perception.row_comb import LEAST_GROWTH, RowComb, growth, straight
 
 FEWEST_ROWS_ACROSS = 1.0
@@ -24,13 +24,16 @@ class SearchRange:
     vanishing: Floats
     bend: Floats
     candidates: int
+    """How many spacings are followed up."""
     halved: bool
     """Whether a comb with half as many rows is tried beside each candidate: teeth have strong harmonics."""
+    refined: int
+    """How many of the combs that respond best are fitted, to compare them once more."""
 
 
 def candidates(bands: Bands, tried: SearchRange) -> tuple[RowComb, ...]:
     """The combs that respond best, of different spacings, best first; none without vegetation."""
-    if bands.span == 0:
+    if bands.empty:
         return ()
     energy = np.stack([_energy(bands, tried, float(q)) for q in tried.convergence])
     best = energy.max(axis=(0, 2, 3))
@@ -59,9 +62,9 @@ def _energy(bands: Bands, tried: SearchRange, convergence: float) -> Floats:
     return np.asarray(np.abs((value[:, None] * lean) @ bend.transpose(0, 2, 1)))
 
 
-def _turns(rows_across: Floats, place: Floats) -> Floats:
+def _turns(rows_across: Floats, place: Floats) -> Complexes:
     """Phase factors that undo a displacement of so many widths at mid-height; shape (f, n, COUNT)."""
-    return np.exp((2j * np.pi) * rows_across[:, None, None] * place).astype(np.complex64)
+    return np.asarray(np.exp((2j * np.pi) * rows_across[:, None, None] * place).astype(np.complex64))
 
 
 def _peaks(best: Floats, count: int) -> list[int]:

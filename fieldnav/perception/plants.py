@@ -1,5 +1,6 @@
 """Single plants: connected regions of the vegetation and their centres of mass (paper III-A.1)."""
 
+import cv2
 import numpy as np
 from numpy.typing import NDArray
 
@@ -8,6 +9,9 @@ from fieldnav.perception.regions import Regions, divide, of_mask
 from fieldnav.perception.vegetation import Cover, vegetation_of
 from fieldnav.pinhole import Pinhole
 from fieldnav.settings.crop import Vegetation
+
+CLOSED = 0.9
+"""Share of the picture: a canopy closed over the soil shows no rows."""
 
 
 def find_plants(image: Image, vegetation: Vegetation, camera: Pinhole) -> Centres:
@@ -19,9 +23,12 @@ def plants_in(cover: Cover, vegetation: Vegetation, camera: Pinhole) -> Centres:
     """The plants of an image's vegetation.
 
     Regions smaller than the profile's area at their place are left out, those taller than its limit are
-    divided. The camera must be that of the image: pixels of both are the same.
+    divided. Where hardly anything else is left to see, plants cannot be told apart and there are none. The
+    camera must be that of the image: pixels of both are the same.
     """
     mask = cover.mask
+    if cv2.countNonZero(mask) > CLOSED * mask.size:
+        return NO_PLANTS
     scale = np.array([cover.width_px / mask.shape[1], cover.height_px / mask.shape[0]])
     labels, found = of_mask(mask)
     large = _area_m2(found, scale, camera) >= vegetation.smallest_area_m2

@@ -1,8 +1,8 @@
 """Parallel rows as a comb in the picture: where its teeth pass through each band.
 
-A plane seen by a camera without roll: the distance between rows grows linearly from the horizon down. With w the
-growth, 1 at mid-height, a straight row runs at a w + b (1 - w): a where it passes mid-height, b the vanishing
-point; a bend of the field adds c (1 - w)^2 / w.
+A plane seen by a camera without roll: the distance between rows grows linearly from the horizon down. With w
+the growth, 1 at mid-height, a straight row runs at a w + b (1 - w): a where it passes mid-height, b the
+vanishing point; a bend of the field adds c (1 - w)^2 / w.
 """
 
 from dataclasses import dataclass
@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fieldnav.messages import Floats
-from fieldnav.perception.bands import COUNT, LEVEL, Bands
+from fieldnav.perception.bands import COUNT, LEVEL, STRETCHES, Bands
 
 HARMONICS = np.arange(1, 7)
 TOOTH = 0.12  # of the spacing: standard deviation of the template's tooth
@@ -23,6 +23,8 @@ PHASES = 48  # at which the comb is tried
 LEAST_GROWTH = 0.06  # nearer to the horizon rows cannot be told apart
 LEAST_SPACING = 1 / 80  # of the picture's width: four columns of a band
 LEAST_SEEN = 0.25  # of the bands that a row must pass
+LEAST_USABLE = 5  # bands of a stretch
+ALMOST_NOTHING = 1e-9
 
 
 @dataclass(frozen=True)
@@ -43,25 +45,36 @@ class RowComb:
         number = np.arange(-reach, reach + 1)
         place = self.middle + number[:, None] * self.spacing
         seen = ((np.abs(place) < 1 / 2) & self.usable).sum(axis=1)
-        return number[seen >= LEAST_SEEN * COUNT]
+        return np.asarray(number[seen >= LEAST_SEEN * COUNT])
 
     def response(self, bands: Bands) -> float:
         """How well the vegetation follows the comb: its correlation with a row of teeth, -1 to 1."""
-        return float((TEMPLATE * self._harmonics(bands).real).sum()) / max(bands.span, np.finfo(float).tiny)
+        return float(self._responses(bands).sum() / max(bands.span.sum(), ALMOST_NOTHING))
+
+    def weakest_response(self, bands: Bands) -> float:
+        """The same of the two weakest stretches of the height: rows go on, chance does not."""
+        usable = STRETCHES @ self.usable >= LEAST_USABLE
+        span = STRETCHES @ bands.span
+        each = np.sort((STRETCHES @ self._responses(bands) / np.maximum(span, ALMOST_NOTHING))[usable])
+        return float(each[:2].mean()) if len(each) else 0.0
 
     def in_phase(self, bands: Bands) -> "RowComb":
         """The comb moved sideways, by less than its spacing, to where it responds best."""
         phase = np.arange(PHASES) / PHASES
         turned = np.exp(2j * np.pi * phase[:, None] * HARMONICS)
-        score = (turned * (TEMPLATE * self._harmonics(bands))).real.sum(axis=1)
+        score = (turned * (TEMPLATE * self._harmonics(bands).sum(axis=0))).real.sum(axis=1)
         shift = phase[int(score.argmax())]
         return RowComb(self.middle + shift * self.spacing, self.spacing, self.usable)
 
+    def _responses(self, bands: Bands) -> Floats:
+        """Each band's response, shape (COUNT,)."""
+        return np.asarray((TEMPLATE * self._harmonics(bands).real).sum(axis=1))
+
     def _harmonics(self, bands: Bands) -> NDArray[np.complex128]:
-        """Sum over the bands of the spectrum at the comb's harmonics, in the comb's phase."""
+        """The bands' spectra at the comb's harmonics, in the comb's phase; shape (COUNT, harmonics)."""
         cycles = HARMONICS / self.spacing[:, None]
         phase = np.exp(2j * np.pi * HARMONICS * (self.middle / self.spacing)[:, None])
-        return np.asarray((bands.at(cycles) * phase * self.usable[:, None]).sum(axis=0))
+        return np.asarray(bands.at(cycles) * phase * self.usable[:, None])
 
 
 def growth(convergence: float) -> Floats:

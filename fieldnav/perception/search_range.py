@@ -45,7 +45,8 @@ def range_of(plane: Pinhole, crop: CropProfile, surely: bool) -> SearchRange:
     leans = _steps(-most, most, IN_STEP / float(rows_across.max()) / NEAREST)
     tilts = plane.tilt_rad + tilt * np.linspace(-1, 1, FEWEST_STEPS if surely else 2 * FEWEST_STEPS + 1)
     convergence = plane.height_px / (plane.focal_px * np.tan(tilts))
-    return SearchRange(np.abs(convergence), rows_across, leans, np.zeros(1), CANDIDATES, not surely)
+    refined = 1 if surely else CANDIDATES
+    return SearchRange(np.abs(convergence), rows_across, leans, np.zeros(1), CANDIDATES, not surely, refined)
 
 
 def any_camera(crop: CropProfile | None) -> SearchRange:
@@ -54,7 +55,9 @@ def any_camera(crop: CropProfile | None) -> SearchRange:
     if crop is not None:
         fewest, most = (height / (VIEW * crop.rows.spacing_m) for height in (LOWEST_M, HIGHEST_M))
     rows_across = _rows_across(fewest, most)
-    return SearchRange(np.concatenate([STEEP, OBLIQUE]), rows_across, VANISHING, BENDS, CANDIDATES, True)
+    return SearchRange(
+        np.concatenate([STEEP, OBLIQUE]), rows_across, VANISHING, BENDS, CANDIDATES, True, CANDIDATES
+    )
 
 
 def _rows_across(fewest: float, most: float) -> Floats:

@@ -2,11 +2,12 @@
 
 import numpy as np
 
-from fieldnav.messages import RowLine
+from fieldnav.messages import Floats, RowLine
 from fieldnav.perception.canopy import canopy_plane
 from fieldnav.perception.comb_fit import Comb, fit, members
 from fieldnav.perception.comb_search import support
 from fieldnav.perception.follow import Followed, follow, scatter_m, widest_m
+from fieldnav.perception.found import LEAST_CONFIDENCE
 from fieldnav.perception.ground_plants import GroundPlants
 from fieldnav.perception.lane import LEAST_SHARE, LaneFit, comb_m, widest_offset
 from fieldnav.pinhole import Pinhole
@@ -14,9 +15,9 @@ from fieldnav.settings.crop import CropProfile
 
 ROUNDS = 2  # of fitting a fresh lane
 CLEARLY_BETTER = 1.15  # a comb elsewhere is taken over the lines' when it scores so many times more
-# Natural logarithm of how much likelier rows are than plants strewn about: weeds alone reach 3, six plants 4.
-EVIDENCE = 3.5
-EVIDENCE_WITHOUT_LINES = 5.0
+# Natural logarithm of how much likelier rows are than plants strewn about: weeds alone reach 2, four plants 5.
+EVIDENCE = 3.0
+UNSURE = 0.05  # confidence that a finder is taken to have in rows that it does not show
 SPREAD = 1.3  # standard deviation about a row just found, against that about the true one
 STRAY = 0.3  # share of the plants that is no crop
 LINE_OFFSET_PRIOR_M = 0.05  # standard deviation of a found line's distance from its row
@@ -48,11 +49,25 @@ def settle(
     followed = follow(Comb(offset, slope, place, np.zeros(len(place)), about_m), plants, crop)
     for _ in range(ROUNDS - 1):
         followed = follow(followed.comb, plants, crop)
-    enough = followed.seen.sum() >= max(1, LEAST_SHARE * len(place))
-    asked = EVIDENCE if lane is not None else EVIDENCE_WITHOUT_LINES
-    if not enough or evidence(followed.comb, plants, crop, plane) < asked:
+    sure = _sure_of(lane, len(place))
+    enough = (followed.seen | (sure >= LEAST_CONFIDENCE)).sum() >= max(1, LEAST_SHARE * len(place))
+    total = evidence(followed.comb, plants, crop, plane) + _log_odds(sure)
+    if not enough or total < EVIDENCE:
         return None
-    return _lane(followed, crop, plane)
+    return _lane(followed, sure, 1 / (1 + float(np.exp(EVIDENCE - total))), crop, plane)
+
+
+def _sure_of(lane: LaneFit | None, rows: int) -> Floats:
+    """How sure the finder is of each of the lane's rows, shape (rows,); 0 where it has none."""
+    return np.array([row.confidence for row in lane.rows]) if lane else np.zeros(rows)
+
+
+def _log_odds(sure: Floats) -> float:
+    """What the rows that the finder shows are worth as evidence; less than nothing when it shows none."""
+    shown = sure[sure > 0]
+    odds = float(shown.mean()) if len(shown) else 0.0
+    odds = min(max(odds, UNSURE), 1 - UNSURE)
+    return float(np.log(odds / (1 - odds)))
 
 
 def evidence(comb: Comb, plants: GroundPlants, crop: CropProfile, plane: Pinhole) -> float:
@@ -95,12 +110,13 @@ def settle_lines(
     return tuple(sorted(comb.in_image(confidence, plane), key=lambda line: line.x_top_px + line.x_bottom_px))
 
 
-def _lane(followed: Followed, crop: CropProfile, plane: Pinhole) -> LaneFit:
+def _lane(followed: Followed, sure: Floats, confidence: float, crop: CropProfile, plane: Pinhole) -> LaneFit:
     comb, place = followed.comb, comb_m(crop)
-    which = np.flatnonzero(followed.seen)
+    seen = followed.seen | (sure >= LEAST_CONFIDENCE)
+    which = np.flatnonzero(seen)
     spacing = -float(np.polyfit(which, comb.place_m[which], 1)[0]) if len(which) > 1 else float("nan")
     off = (comb.place_m - place)[which]
     misfit = float(np.sqrt(np.mean((off - off.mean()) ** 2)))
-    rows = comb.in_image(followed.confidence(crop), plane)
+    rows = comb.in_image(np.maximum(followed.confidence(crop), sure * seen), plane)
     offset = comb.offset_m + float(np.mean(comb.place_m - place)) - comb.slope * comb.about_m
-    return LaneFit(rows, offset, comb.slope, len(which), spacing, misfit)
+    return LaneFit(rows, offset, comb.slope, len(which), spacing, misfit, confidence)

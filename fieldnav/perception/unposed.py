@@ -8,14 +8,15 @@ import numpy as np
 from fieldnav.messages import Image
 from fieldnav.perception.bands import LEVEL
 from fieldnav.perception.comb_finder import convergence_of, find_comb, rows_in
-from fieldnav.perception.finders import NO_ROWS, Found
+from fieldnav.perception.finders import find_rows
+from fieldnav.perception.found import NO_ROWS
 from fieldnav.perception.perceive import View
 from fieldnav.perception.plants import NO_PLANTS, plants_in
 from fieldnav.perception.row_comb import RowComb
 from fieldnav.perception.search_range import any_camera
 from fieldnav.perception.vegetation import Cover, vegetation_of
 from fieldnav.pinhole import Pinhole
-from fieldnav.settings.crop import CropProfile, Vegetation
+from fieldnav.settings.crop import CropProfile, RowFinder, Vegetation
 
 FOCAL = 0.75  # assumed focal length over the picture's width; one picture of a plane does not tell it
 SPACING_M = 0.5  # assumed row spacing of a crop that is not known
@@ -39,11 +40,13 @@ def find_unposed(image: Image, crop: CropProfile | None) -> Unposed:
     vegetation = crop.vegetation if crop else Vegetation()
     cover = vegetation_of(image, vegetation)
     combed = find_comb(cover, any_camera(crop))
-    found = Found(*rows_in(*combed, cover)) if combed else NO_ROWS
+    found = rows_in(*combed, cover).sure() if combed else NO_ROWS
     if not combed or not found.lines:
         return Unposed(View(cover, NO_PLANTS, (), NO_ROWS.paths_px, None), None)
     camera = _camera_of(combed[0], cover, crop.rows.spacing_m if crop else SPACING_M)
     centres = plants_in(cover, vegetation, camera)
+    if crop is not None and crop.finding.method is not RowFinder.COMB:
+        found = find_rows(cover, centres, crop, camera).sure()
     return Unposed(View(cover, centres, found.lines, found.paths_px, None), camera)
 
 

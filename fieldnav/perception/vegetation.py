@@ -20,6 +20,7 @@ WORKING_WIDTH_PX = (
     640  # vegetation is found at this width or just above: centres of mass lose no accuracy there
 )
 SMALLEST_SIDE_PX = 8  # an image less wide or high holds no rows
+STRIPS = 12  # of an image's height, each with its own threshold for the strength of vegetation
 FAINT, LUSH = 0.45, 3.0  # times the threshold: where vegetation begins to count, and where it counts in full
 
 
@@ -28,11 +29,12 @@ class Cover:
     """The vegetation of an image, at a size near WORKING_WIDTH_PX.
 
     index: excess green, shape (h, w), uint8, 255 standing for 1; threshold: the grey level from which on a
-    pixel is vegetation; width_px, height_px: size of the image itself.
+    pixel is vegetation; floor: the least it may be; width_px, height_px: size of the image itself.
     """
 
     index: NDArray[np.uint8]
     threshold: float
+    floor: float
     width_px: int
     height_px: int
 
@@ -51,10 +53,13 @@ class Cover:
 
     @property
     def strength(self) -> NDArray[np.uint8]:
-        """How surely and how densely each pixel is vegetation, 0 to 255, at the working size."""
-        grey = np.arange(FULL_SCALE + 1) / self.threshold
-        table = (grey - FAINT) / (LUSH - FAINT) * FULL_SCALE
-        return np.asarray(cv2.LUT(self.index, table.clip(0, FULL_SCALE).astype(np.uint8)), np.uint8)
+        """How surely and how densely each pixel is vegetation, 0 to 255, at the working size.
+
+        Judged strip by strip: green fields at the horizon would hide pale plants nearby. Half the floor is
+        enough here, since rows are told by their order too.
+        """
+        strips = np.array_split(self.index, min(STRIPS, len(self.index)))
+        return np.concatenate([_strength(strip, self.floor / 2) for strip in strips])
 
     def part(self, part: ImagePart) -> "Cover":
         """The same image with nothing growing outside a part of it."""
@@ -64,6 +69,13 @@ class Cover:
         elif part is ImagePart.BOTTOM:
             index[:middle] = 0
         return replace(self, index=index)
+
+
+def _strength(strip: NDArray[np.uint8], floor: float) -> NDArray[np.uint8]:
+    otsu, _ = cv2.threshold(strip, 0, FULL_SCALE, cv2.THRESH_OTSU)
+    grey = np.arange(FULL_SCALE + 1) / max(otsu, floor, 1.0)
+    table = (grey - FAINT) / (LUSH - FAINT) * FULL_SCALE
+    return np.asarray(cv2.LUT(strip, table.clip(0, FULL_SCALE).astype(np.uint8)), np.uint8)
 
 
 def excess_green(image: Image) -> NDArray[np.uint8]:
@@ -83,20 +95,21 @@ def excess_green(image: Image) -> NDArray[np.uint8]:
 def vegetation_of(image: Image, vegetation: Vegetation) -> Cover:
     """The vegetation of an image, by Otsu's threshold but never below the profile's floor.
 
-    image: shape (h, w, 3), uint8, blue green red. One that is none (one channel, tiny, not finite) has nothing
-    growing in it.
+    image: shape (h, w, 3), uint8, blue green red. One that is none (one channel, tiny, not finite) has
+    nothing growing in it.
     """
     colour = _as_colour(image)
     if colour is None:
         height, width = (*image.shape, 0, 0)[:2]
-        return Cover(np.zeros((1, 1), np.uint8), FULL_SCALE, width, height)
+        return Cover(np.zeros((1, 1), np.uint8), FULL_SCALE, FULL_SCALE, width, height)
     height, width = colour.shape[:2]
     divisor = max(1, width // WORKING_WIDTH_PX)
     size = (width // divisor, max(1, height // divisor))
     small = colour if divisor == 1 else cv2.resize(colour, size, interpolation=cv2.INTER_AREA)
     index = excess_green(np.asarray(small, dtype=np.uint8))
     otsu, _ = cv2.threshold(index, 0, FULL_SCALE, cv2.THRESH_OTSU)
-    return Cover(index, max(otsu, vegetation.floor * FULL_SCALE, 1.0), width, height)
+    floor = vegetation.floor * FULL_SCALE
+    return Cover(index, max(otsu, floor, 1.0), floor, width, height)
 
 
 def _as_colour(image: Image) -> Image | None:

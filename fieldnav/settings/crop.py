@@ -18,7 +18,7 @@ class VegetationIndex(Enum):
 
 
 class RowFinder(Enum):
-    """The method that finds rows in a fresh frame: the paper's, or the comb that explains the picture best."""
+    """The method that finds rows in a fresh frame: the paper's, or the comb that explains it best."""
 
     MOVING_VARIANCE = "moving_variance"
     COMB = "comb"
@@ -51,7 +51,7 @@ class Vegetation(Settings):
 
 
 class Finding(Settings):
-    """The finder, and the paper's sliding window and field-structure signal (III-A.2) over the image's width."""
+    """The finder, and the paper's sliding window and field-structure signal (III-A.2)."""
 
     method: RowFinder = RowFinder.COMB
     window: float = Field(

@@ -1,0 +1,65 @@
+"""The perspective of a camera that stays what it is, settled by the rows of many frames."""
+
+from dataclasses import replace
+
+import numpy as np
+
+from fieldnav.messages import Floats
+from fieldnav.perception.canopy import canopy_plane
+from fieldnav.perception.comb_finder import find_comb
+from fieldnav.perception.levelled import Perspective, perspective_of
+from fieldnav.perception.periodogram import SearchRange
+from fieldnav.perception.search_range import any_camera, range_of
+from fieldnav.perception.vegetation import Cover
+from fieldnav.pinhole import Pinhole
+from fieldnav.settings.crop import CropProfile
+
+MOST_FRAMES = 25  # that are searched for rows; more change nothing and cost time
+FIRST = Perspective(0.4, 0.0, 0.3)
+"""Until rows are found: a camera that looks down steeply, and three rows."""
+FLATTEST, STEEPEST = 0.02, 2.2  # convergence, as far as rows are searched for
+
+
+class SettledPerspective:
+    """The median over the frames looked at so far, weighted by how well each one's rows explain it.
+
+    camera: at the size of the frames, None where it is not known; the crop may be unknown too.
+    """
+
+    def __init__(self, crop: CropProfile | None, camera: Pinhole | None) -> None:
+        self._convergence = None if camera is None else _convergence(camera)
+        self._tried = _tried(crop, camera, self._convergence)
+        self._found: list[tuple[Perspective, float]] = []
+        self.now = replace(FIRST, convergence=self._convergence or FIRST.convergence)
+
+    def look(self, cover: Cover) -> None:
+        """Take in the rows of a frame that shows other ground than those before."""
+        combed = find_comb(cover, self._tried) if len(self._found) < MOST_FRAMES else None
+        if combed is None:
+            return
+        comb, bands = combed
+        self._found.append((perspective_of(comb), max(comb.response(bands), np.finfo(float).tiny)))
+        each = np.array([(one.convergence, one.vanishing, one.spacing) for one, _ in self._found])
+        convergence, vanishing, spacing = _median(each, np.array([weight for _, weight in self._found]))
+        settled = self._convergence or float(np.clip(convergence, FLATTEST, STEEPEST))
+        self.now = Perspective(settled, float(vanishing), float(spacing))
+
+
+def _median(values: Floats, weight: Floats) -> Floats:
+    """The weighted median of each column of values, shape (n, k); weight: shape (n,)."""
+    order = values.argsort(axis=0)
+    below = weight[order].cumsum(axis=0)
+    middle = (below >= weight.sum() / 2).argmax(axis=0)
+    return np.asarray(np.take_along_axis(values, np.take_along_axis(order, middle[None], 0), 0)[0])
+
+
+def _convergence(camera: Pinhole) -> float:
+    return float(np.clip(camera.height_px / (camera.focal_px * np.tan(camera.tilt_rad)), FLATTEST, STEEPEST))
+
+
+def _tried(crop: CropProfile | None, camera: Pinhole | None, convergence: float | None) -> SearchRange:
+    if camera is None or convergence is None:
+        return any_camera(crop)
+    if crop is None:
+        return replace(any_camera(None), convergence=np.array([convergence]))
+    return range_of(canopy_plane(camera, crop), crop, surely=True)
