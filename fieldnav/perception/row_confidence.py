@@ -12,10 +12,10 @@ from fieldnav.perception.bands import Bands
 from fieldnav.perception.comb_rows import CombRows
 from fieldnav.perception.row_comb import RowComb
 
-INTERCEPT = -10.95
-RESPONSE = 16.1  # of the comb's correlation with the vegetation
-WEAKEST = 15.5  # of that in the two weakest of six stretches
-EVENNESS = 5.1  # of how evenly vegetation stands along the row itself
+INTERCEPT = -10.4
+RESPONSE = 18.25  # of the comb's correlation with the vegetation
+WEAKEST = 12.33  # of that in the two weakest of six stretches
+EVENNESS = 4.65  # of how evenly vegetation stands along the row itself
 LEAST_STAND = 0.2  # of the middle row's vegetation: less is no row, however well it would fit in
 
 

@@ -21,7 +21,7 @@ from fieldnav.settings.crop import CropProfile, Vegetation
 
 APART = 0.1  # widths between landmarks: every place is seen from ten of them
 LEAST_ALIKE = 0.3  # of two pictures, for their shift to be believed
-MARGIN = 0.015  # of the row spacing: what the place of a row against the middle errs by
+MARGIN = 0.005  # of the row spacing: what standing still moves a row by
 
 
 @dataclass(frozen=True, slots=True)
