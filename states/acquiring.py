@@ -33,20 +33,20 @@ class Acquiring:
         camera = self._task.cameras[frame.camera]
         found = find(frame.image, self._task.crop, camera)
         crept_m = abs(seen.forward_m - entered_m)
+        agreed = self._agreement.add(found.lane)
         evidence = (
-            self._agreement.evidence(),
+            *self._agreement.evidence(),
             Evidence("rows of the lane in view", found.lane.rows_seen if found.lane else 0, None, "rows"),
             Evidence("crept", crept_m, CREEP_LIMIT_M, "m"),
         )
         sight = Sight(frame, found.lane.rows if found.lane else found.lines, found.centres)
         motion = self._creep(seen.now_s - entered_s)
-        if self._agreement.add(found.lane) and found.lane:
+        if agreed and found.lane:
             self._lane.leading = start(found.lane, frame.stamp_s)
             self._lane.counts[found.lane.rows_seen] += 1
             if self._lane.entered_m is None:
                 self._lane.entered_m = seen.forward_m
             self._lane.under_way = True
-            evidence = (self._agreement.evidence(), *evidence[1:])
             return Step(motion, Event.ROWS_FOUND, evidence, sight)
         if crept_m > CREEP_LIMIT_M:
             return Step(Motion(), Event.FAIL, evidence, sight, "no rows found")

@@ -1,6 +1,7 @@
 """Several frames must tell the same before a state believes them."""
 
 from fieldnav.messages import Evidence
+from fieldnav.perception.found import LEAST_CONFIDENCE
 from fieldnav.perception.lane import LaneFit
 
 OFFSET_M = 0.06
@@ -28,5 +29,9 @@ class Agreement:
             self.looks = 1
         return self.looks >= self.needed
 
-    def evidence(self) -> Evidence:
-        return Evidence("frames that agree on the lane", self.looks, self.needed, "frames")
+    def evidence(self) -> tuple[Evidence, ...]:
+        sure = self._last.confidence if self._last else 0.0
+        return (
+            Evidence("frames that agree on the lane", self.looks, self.needed, "frames"),
+            Evidence("confidence in the lane", sure, LEAST_CONFIDENCE),
+        )

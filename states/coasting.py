@@ -40,7 +40,7 @@ class Coasting:
         ahead = crop_in_rows(found.centres, self._lane.leading.rows, crop, camera, ImagePart.TOP)
         ended = self._end.add(ahead > crop.row_end.least_crop, frame.stamp_s, seen.forward_m)
         evidence = (
-            self._agreement.evidence(),
+            *self._agreement.evidence(),
             *self._end.evidence("top half"),
             Evidence("coasted", coasted_m, limit_m, "m"),
         )

@@ -50,7 +50,7 @@ class Exiting:
             self._lane.under_way = True
             reason = "rows come again: it was a gap"
             return Step(
-                self._step.motion, Event.ROWS_SEEN_AGAIN, (self._again.evidence(),), Sight(leading), reason
+                self._step.motion, Event.ROWS_SEEN_AGAIN, self._again.evidence(), Sight(leading), reason
             )
         if trailing is not None:
             self._step = self._guided(trailing, seen, abs(seen.forward_m - self._entered_m))

@@ -35,7 +35,7 @@ class Sampling:
         found = find(frame.image, self._task.crop, self._task.cameras[frame.camera])
         agreed = self._agreement.add(found.lane)
         looked_s = seen.now_s - self._entered_s
-        evidence = (self._agreement.evidence(), Evidence("looked for the rows", looked_s, LONGEST_S, "s"))
+        evidence = (*self._agreement.evidence(), Evidence("looked for the rows", looked_s, LONGEST_S, "s"))
         if (agreed and found.lane) or looked_s > LONGEST_S:
             return self._sampled(frame, found, evidence)
         self._step = Step(self._hold, None, evidence, Sight(frame, found.lines, found.centres))

@@ -33,9 +33,10 @@ def rows_in(comb: RowComb, bands: Bands, cover: Cover) -> Found:
     """Every row of a comb, whether plants bear it out or not: its confidence tells."""
     rows = rows_of(comb, bands)
     curves = _curves_px(rows, cover)
+    confidence = confidence_of(rows, comb, bands)
     lines = tuple(
-        _line(curve, comb, float(confidence), cover)
-        for curve, confidence in zip(curves, confidence_of(rows, comb, bands), strict=True)
+        RowLine(float(top), float(bottom), float(sure))
+        for (top, bottom), sure in zip(_ends_px(rows, comb, cover), confidence, strict=True)
     )
     return Found(lines, curves)
 
@@ -67,9 +68,12 @@ def _curves_px(rows: CombRows, cover: Cover) -> Floats:
     return np.stack([x, y], axis=-1)
 
 
-def _line(curve: Floats, comb: RowComb, confidence: float, cover: Cover) -> RowLine:
-    """The straight line nearest to a curve; the near ground, which is drawn larger, counts more."""
-    x, y = curve[1:-1].T
+def _ends_px(rows: CombRows, comb: RowComb, cover: Cover) -> Floats:
+    """Upper and lower end of the straight line nearest to each row's curve, shape (rows, 2).
+
+    The near ground, which is drawn larger, counts more.
+    """
     weight = np.where(comb.usable, comb.spacing, 0.0)
-    slope, start = np.polyfit(y, x, 1, w=weight)
-    return RowLine(float(start), float(start + slope * (cover.height_px - 1)), confidence)
+    basis = np.stack([1 / 2 - LEVEL, 1 / 2 + LEVEL], axis=-1)
+    fitted = np.linalg.lstsq(basis * weight[:, None], (rows.place * weight).T, rcond=None)[0].T
+    return np.asarray(fitted * cover.width_px + (cover.width_px - 1) / 2)

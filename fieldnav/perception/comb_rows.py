@@ -23,8 +23,8 @@ class CombRows:
     """Rows from left to right.
 
     place: where each lies in each band, in widths, shape (rows, COUNT); evenness: 1 where vegetation stands
-    alike along all of a row, less where it stands in some stretches only, shape (rows,); stand: how much grows
-    on a row beyond what grows between, against the comb's middle row, shape (rows,).
+    alike along all of a row, less where it stands in some stretches only, shape (rows,); stand: how much
+    grows on a row beyond what grows between, against the comb's middle row, shape (rows,).
     """
 
     place: Floats

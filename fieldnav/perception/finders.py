@@ -35,7 +35,7 @@ def _by_moving_variance(
 
 
 def _by_comb(cover: Cover, centres: Centres, crop: CropProfile, camera: Pinhole, surely: bool) -> Found:
-    found = find_comb(cover, range_of(canopy_plane(camera, crop), crop, surely))
+    found = find_comb(cover, range_of(canopy_plane(camera, crop), crop.rows.spacing_m, surely))
     return rows_in(*found, cover) if found else NO_ROWS
 
 

@@ -18,6 +18,7 @@ WIDER = 1.8  # parallelogram against the canopy's while the lane's own movement 
 WIDEST = 0.45  # of the row spacing: half a parallelogram's width is never more, so that no plant is in two
 SCATTER = 0.15  # of the canopy's width: standard deviation of a plant's centre from its row
 SMALLEST_SCATTER_M = 0.02
+STRAY = 0.3  # share of the plants that is no crop
 
 
 @dataclass(frozen=True, slots=True)
@@ -28,9 +29,10 @@ class Followed:
     seen: NDArray[np.bool_]
     counts: Indices
 
-    def confidence(self, crop: CropProfile) -> Floats:
-        """How well each row is borne out, 0 to 1; 0 where it was not seen."""
-        return np.asarray(self.seen * self.counts / (self.counts + crop.tracking.fewest_centres))
+    @property
+    def confidence(self) -> Floats:
+        """The probability that not all plants of a row are weeds; 0 where it was not seen."""
+        return np.asarray(self.seen * (1 - STRAY**self.counts))
 
 
 def scatter_m(crop: CropProfile) -> float:

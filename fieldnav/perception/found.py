@@ -14,8 +14,8 @@ LEAST_CONFIDENCE = 0.5
 class Found:
     """Rows from left to right.
 
-    lines: straight ones, each with its confidence; paths_px: the same rows as curves, shape (rows, points, 2),
-    x and y in pixels from the upper edge to the lower.
+    lines: straight ones, each with its confidence; paths_px: the same rows as curves, shape (rows, points,
+    2), x and y in pixels from the upper edge to the lower.
     """
 
     lines: tuple[RowLine, ...]

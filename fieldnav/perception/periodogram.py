@@ -5,6 +5,7 @@ spectrum of each band at the frequency that a spacing has there, turned by the p
 """
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
@@ -15,7 +16,7 @@ from fieldnav.perception.row_comb import LEAST_GROWTH, RowComb, growth, straight
 FEWEST_ROWS_ACROSS = 1.0
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, eq=False)
 class SearchRange:
     """The combs that are tried, every combination; see `row_comb.straight` for the parameters."""
 
@@ -30,12 +31,24 @@ class SearchRange:
     refined: int
     """How many of the combs that respond best are fitted, to compare them once more."""
 
+    @cached_property
+    def turns(self) -> tuple[tuple[Complexes, Complexes], ...]:
+        """For each convergence the phases that undo leans, (f, b, COUNT), and bends, (f, c, COUNT)."""
+        away = [1 / np.maximum(growth(float(each)), LEAST_GROWTH) - 1 for each in self.convergence]
+        return tuple(
+            (
+                _turns(self.rows_across, self.vanishing[:, None] * off),
+                _turns(self.rows_across, self.bend[:, None] * off**2),
+            )
+            for off in away
+        )
+
 
 def candidates(bands: Bands, tried: SearchRange) -> tuple[RowComb, ...]:
     """The combs that respond best, of different spacings, best first; none without vegetation."""
     if bands.empty:
         return ()
-    energy = np.stack([_energy(bands, tried, float(q)) for q in tried.convergence])
+    energy = np.stack([_energy(bands, tried, index) for index in range(len(tried.convergence))])
     best = energy.max(axis=(0, 2, 3))
     combs: list[RowComb] = []
     for chosen in _peaks(best, tried.candidates):
@@ -50,15 +63,12 @@ def candidates(bands: Bands, tried: SearchRange) -> tuple[RowComb, ...]:
     return tuple(sorted(combs, key=lambda comb: -comb.response(bands)))
 
 
-def _energy(bands: Bands, tried: SearchRange, convergence: float) -> Floats:
+def _energy(bands: Bands, tried: SearchRange, index: int) -> Floats:
     """Magnitude of the fundamental for each spacing, direction and bend; shape (f, b, c)."""
-    grown = growth(convergence)
+    grown = growth(float(tried.convergence[index]))
     usable = grown > LEAST_GROWTH
-    grown = np.maximum(grown, LEAST_GROWTH)
-    value = bands.at(tried.rows_across / grown[:, None]).T * usable
-    away = 1 / grown - 1
-    lean = _turns(tried.rows_across, tried.vanishing[:, None] * away)
-    bend = _turns(tried.rows_across, tried.bend[:, None] * away**2)
+    value = bands.at(tried.rows_across / np.maximum(grown, LEAST_GROWTH)[:, None]).T * usable
+    lean, bend = tried.turns[index]
     return np.asarray(np.abs((value[:, None] * lean) @ bend.transpose(0, 2, 1)))
 
 

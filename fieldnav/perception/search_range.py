@@ -1,5 +1,6 @@
 """Which combs are looked for: as wide as what is not known of the camera, the rows and the heading."""
 
+from functools import lru_cache
 from math import cos, radians, tan
 
 import numpy as np
@@ -32,21 +33,22 @@ BENDS = np.array([-0.15, -0.05, 0.0, 0.05, 0.15])
 CANDIDATES = 6
 
 
-def range_of(plane: Pinhole, crop: CropProfile, surely: bool) -> SearchRange:
-    """The range for a camera over the canopy's plane.
+@lru_cache(maxsize=8)
+def range_of(plane: Pinhole, spacing_m: float, surely: bool) -> SearchRange:
+    """The range for a camera over the canopy's plane; kept for the frames that follow.
 
     surely: whether the camera's pose is that of its file but for calibration and shaking; otherwise it may be
     quite another one.
     """
     tilt, scale = (TILT_ERROR_RAD, 1 + SCALE_ERROR) if surely else (UNKNOWN_TILT_RAD, UNKNOWN_SCALE)
-    across = plane.width_px / float(plane.pixels_per_metre(plane.centre_y_px)) / crop.rows.spacing_m
+    across = plane.width_px / float(plane.pixels_per_metre(plane.centre_y_px)) / spacing_m
     most = STEEPEST * plane.focal_px / (plane.width_px * cos(plane.tilt_rad))
     rows_across = _rows_across(across / scale, across * scale)
     leans = _steps(-most, most, IN_STEP / float(rows_across.max()) / NEAREST)
     tilts = plane.tilt_rad + tilt * np.linspace(-1, 1, FEWEST_STEPS if surely else 2 * FEWEST_STEPS + 1)
     convergence = plane.height_px / (plane.focal_px * np.tan(tilts))
-    refined = 1 if surely else CANDIDATES
-    return SearchRange(np.abs(convergence), rows_across, leans, np.zeros(1), CANDIDATES, not surely, refined)
+    followed, refined = (2, 1) if surely else (CANDIDATES, CANDIDATES)
+    return SearchRange(np.abs(convergence), rows_across, leans, np.zeros(1), followed, not surely, refined)
 
 
 def any_camera(crop: CropProfile | None) -> SearchRange:

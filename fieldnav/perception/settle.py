@@ -6,7 +6,7 @@ from fieldnav.messages import Floats, RowLine
 from fieldnav.perception.canopy import canopy_plane
 from fieldnav.perception.comb_fit import Comb, fit, members
 from fieldnav.perception.comb_search import support
-from fieldnav.perception.follow import Followed, follow, scatter_m, widest_m
+from fieldnav.perception.follow import STRAY, Followed, follow, scatter_m, widest_m
 from fieldnav.perception.found import LEAST_CONFIDENCE
 from fieldnav.perception.ground_plants import GroundPlants
 from fieldnav.perception.lane import LEAST_SHARE, LaneFit, comb_m, widest_offset
@@ -15,11 +15,10 @@ from fieldnav.settings.crop import CropProfile
 
 ROUNDS = 2  # of fitting a fresh lane
 CLEARLY_BETTER = 1.15  # a comb elsewhere is taken over the lines' when it scores so many times more
-# Natural logarithm of how much likelier rows are than plants strewn about: weeds alone reach 2, four plants 5.
+# Natural logarithm of how much likelier rows are than plants strewn about: weeds reach 2, four plants 5.
 EVIDENCE = 3.0
 UNSURE = 0.05  # confidence that a finder is taken to have in rows that it does not show
 SPREAD = 1.3  # standard deviation about a row just found, against that about the true one
-STRAY = 0.3  # share of the plants that is no crop
 LINE_OFFSET_PRIOR_M = 0.05  # standard deviation of a found line's distance from its row
 
 
@@ -117,6 +116,6 @@ def _lane(followed: Followed, sure: Floats, confidence: float, crop: CropProfile
     spacing = -float(np.polyfit(which, comb.place_m[which], 1)[0]) if len(which) > 1 else float("nan")
     off = (comb.place_m - place)[which]
     misfit = float(np.sqrt(np.mean((off - off.mean()) ** 2)))
-    rows = comb.in_image(np.maximum(followed.confidence(crop), sure * seen), plane)
+    rows = comb.in_image(np.maximum(followed.confidence, sure * seen), plane)
     offset = comb.offset_m + float(np.mean(comb.place_m - place)) - comb.slope * comb.about_m
     return LaneFit(rows, offset, comb.slope, len(which), spacing, misfit, confidence)

@@ -62,4 +62,4 @@ def _tried(crop: CropProfile | None, camera: Pinhole | None, convergence: float 
         return any_camera(crop)
     if crop is None:
         return replace(any_camera(None), convergence=np.array([convergence]))
-    return range_of(canopy_plane(camera, crop), crop, surely=True)
+    return range_of(canopy_plane(camera, crop), crop.rows.spacing_m, surely=True)

@@ -80,7 +80,7 @@ def track(
         stamp_s if now else before for now, before in zip(followed.seen, rows.last_seen_s, strict=True)
     )
     return TrackedRows(
-        followed.comb.in_image(followed.confidence(crop), plane),
+        followed.comb.in_image(followed.confidence, plane),
         last_seen_s,
         tuple(int(count) for count in followed.counts),
         stamp_s,

@@ -19,7 +19,7 @@ DARK_LEVEL = 26.0  # grey levels added to the brightness, so that sensor noise i
 WORKING_WIDTH_PX = (
     640  # vegetation is found at this width or just above: centres of mass lose no accuracy there
 )
-SMALLEST_SIDE_PX = 8  # an image less wide or high holds no rows
+SMALLEST_SIDE_PX = 48  # an image less wide or high holds no rows that could be told from noise
 STRIPS = 12  # of an image's height, each with its own threshold for the strength of vegetation
 FAINT, LUSH = 0.45, 3.0  # times the threshold: where vegetation begins to count, and where it counts in full
 

@@ -63,7 +63,7 @@ def test_looks_that_agree_are_counted_and_then_believed() -> None:
     words = [agreement.add(fit(offset_m=0.01 * look)) for look in range(5)]
 
     assert words == [False, False, True, True, True]
-    assert agreement.evidence().value == 5
+    assert agreement.evidence()[0].value == 5
 
 
 @pytest.mark.parametrize("other", [None, fit(offset_m=OFFSET_M * 1.1), fit(slope=-SLOPE * 1.1)])
