@@ -12,6 +12,7 @@ from fieldnav import __version__
 from fieldnav.cli.bench import bench
 from fieldnav.cli.check import check
 from fieldnav.cli.console import FAILED, print_error
+from fieldnav.cli.count import count
 from fieldnav.cli.detect import detect
 from fieldnav.cli.diagram import diagram
 from fieldnav.cli.log import log
@@ -54,6 +55,7 @@ def fieldnav(
 
 app.command()(simulate)
 app.command()(detect)
+app.command()(count)
 app.command()(check)
 app.add_typer(log)
 app.add_typer(bench)

@@ -5,6 +5,7 @@ from fieldnav.evaluation.found_rows import FoundRows
 from fieldnav.evaluation.photographed_rows import photographed_rows
 from fieldnav.evaluation.rendered_rows import rendered_rows
 from fieldnav.evaluation.rowless import rowless
+from fieldnav.evaluation.sideways import sideways
 from fieldnav.messages import Image
 from fieldnav.perception.unposed import find_unposed
 from fieldnav.settings.crop import CropProfile
@@ -13,8 +14,14 @@ from fieldnav.settings.crop import CropProfile
 def detection(plan: Plan, progress: Progress) -> Report:
     """Every figure of detection. Raises SettingsError, OutputError."""
     photographed = photographed_rows(plan, progress, unposed_rows)
-    figures = (*photographed.figures, *rendered_rows(plan, progress), *rowless(plan, progress))
-    return Report(figures, photographed.left_out)
+    passing = sideways(plan, progress)
+    figures = (
+        *photographed.figures,
+        *passing.figures,
+        *rendered_rows(plan, progress),
+        *rowless(plan, progress),
+    )
+    return Report(figures, (*photographed.left_out, *passing.left_out))
 
 
 def unposed_rows(image: Image, crop: CropProfile | None) -> FoundRows:

@@ -10,7 +10,7 @@ from fieldnav.perception.comb_refinement import EDGE, SAMPLES, off_centre, teeth
 from fieldnav.perception.row_comb import RowComb
 
 OFFSET_PRIOR = 0.1  # standard deviation of a row from its place, in spacings; drills are not exact
-TURN_PRIOR = 0.05  # the same of half its lean across the height
+TURN_PRIOR = 0.1  # the same of half its lean across the height
 TOOTH = 0.5  # of one tooth's vegetation about its row; wide, since the bands of one plant all err alike
 WIDTHS = (0.15, 0.12, 0.1)  # standard deviation of the bell about a row in each round, in spacings
 LEAST_IN_VIEW = 0.55  # of the height: a row that shows less is not reported

@@ -8,8 +8,9 @@ moves, all of them shrink together; how fast is seen, not taken from the wheels.
 from dataclasses import dataclass, replace
 
 import numpy as np
+from numpy.typing import NDArray
 
-from fieldnav.messages import Centres, RowLine
+from fieldnav.messages import Centres, Floats, RowLine
 from fieldnav.perception.canopy import canopy_plane, half_width_px, line_px
 from fieldnav.perception.ground_plants import on_ground
 from fieldnav.perception.passing import (
@@ -38,6 +39,8 @@ SLOPE_DRIFT = 0.003
 FIRST_SLOPE = 0.05
 """Standard deviation of the heading that the lane's rows gave; single looks err by several degrees."""
 ROUNDS = 2
+SMOOTHING = 0.1
+"""Share that one frame has in what a row usually shows."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -61,6 +64,8 @@ class Crossing:
     slope_variance: float = FIRST_SLOPE**2
     candidate_m: float | None = None
     candidate_frames: int = 0
+    usual_mass: float = 0.0
+    """Whole plants that a row shows here, as the rows known so far show them."""
 
     @property
     def outermost(self) -> PassingRow:
@@ -100,8 +105,9 @@ def follow(crossing: Crossing, centres: Centres, crop: CropProfile, camera: Pinh
         replace(old, across_m=float(place)) for old, place in zip(crossing.rows, places, strict=True)
     )
     moved = replace(crossing, rows=rows, slope=slope, slope_variance=(1 - trust) * variance)
+    moved = replace(moved, usual_mass=_usual_mass(moved, row, weight, crop, camera))
     least = moved.outermost.across_m + NEW_ROW * crop.rows.spacing_m
-    candidate = row_beyond(across, weight, least, crop)
+    candidate = row_beyond(across, weight, least, moved.usual_mass, crop)
     if candidate is None:
         return replace(moved, candidate_m=None, candidate_frames=0)
     last = crossing.candidate_m
@@ -109,6 +115,23 @@ def follow(crossing: Crossing, centres: Centres, crop: CropProfile, camera: Pinh
     return replace(
         moved, candidate_m=candidate, candidate_frames=crossing.candidate_frames + 1 if again else 1
     )
+
+
+def _usual_mass(
+    crossing: Crossing, row: NDArray[np.int64], weight: Floats, crop: CropProfile, camera: Pinhole
+) -> float:
+    """The middle of what the known rows that stand wholly in the view hold, smoothed over frames."""
+    plane = canopy_plane(camera, crop)
+    mass = np.bincount(row[row >= 0], weight[row >= 0], len(crossing.rows))
+    whole = [
+        mass[index]
+        for index, each in enumerate(crossing.rows)
+        if _in_view(_line(crossing, each.across_m, plane), crop, camera)
+    ]
+    if not whole:
+        return crossing.usual_mass
+    now = float(np.median(whole))
+    return now if crossing.usual_mass == 0 else crossing.usual_mass + SMOOTHING * (now - crossing.usual_mass)
 
 
 def candidate_row(crossing: Crossing, crop: CropProfile, camera: Pinhole) -> RowLine | None:

@@ -15,7 +15,7 @@ from fieldnav.perception.row_comb import RowComb, growth
 
 STEP = 1 / COLUMNS  # between the places of a levelled picture, as fine as the bands are
 REACH = 0.65  # to either side: what the upper edge of a steep view still shows
-PLACES: Floats = np.arange(-round(REACH / STEP), round(REACH / STEP) + 1) * STEP
+PLACES: Floats = np.asarray(np.arange(-round(REACH / STEP), round(REACH / STEP) + 1) * STEP, float)
 """Where the columns of a levelled picture lie, shape (n,)."""
 FURTHEST = 0.5  # of the ground's scale from that at mid-height; bands beyond show it too small or too large
 
@@ -33,7 +33,7 @@ class Perspective:
 
 @dataclass(frozen=True, slots=True)
 class Levelled:
-    """strength: shape (COUNT, n), 0 to 1, at PLACES; seen: the same shape, 1 where the picture has the place."""
+    """strength: shape (COUNT, n), 0 to 1, at PLACES; seen: the same, 1 where the picture has the place."""
 
     strength: Levels
     seen: Levels

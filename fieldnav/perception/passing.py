@@ -14,6 +14,8 @@ WINDOW = 1.0
 """Width of the sliding window over the canopy's width."""
 ROW_MASS = 0.45
 """Whole plants in the window that make a row; most weeds have a tenth of one."""
+LEAST_OF_USUAL = 0.3
+"""Of what a row usually shows; rows that begin 0.3 m later than their neighbours show about half."""
 SMALLEST_MASS = 1e-6
 
 
@@ -53,8 +55,13 @@ def lean_of(
     return float((weight * x * y).sum()) / max(spread, SMALLEST_MASS), spread
 
 
-def row_beyond(across: Floats, weight: Floats, least_m: float, crop: CropProfile) -> float | None:
-    """The nearest row beyond a place: the sliding window of III-A.2, the rows' heading being known."""
+def row_beyond(
+    across: Floats, weight: Floats, least_m: float, usual_mass: float, crop: CropProfile
+) -> float | None:
+    """The nearest row beyond a place: the sliding window of III-A.2, the rows' heading being known.
+
+    usual_mass: whole plants that a row shows in this view; weeds in line show less.
+    """
     beyond = across > least_m
     places, mass = across[beyond], weight[beyond]
     if not len(places):
@@ -62,7 +69,7 @@ def row_beyond(across: Floats, weight: Floats, least_m: float, crop: CropProfile
     half = WINDOW * crop.plants.canopy_width_m / 2
     inside = np.abs(places[None, :] - places[:, None]) <= half
     heavy = inside @ mass
-    enough = heavy >= ROW_MASS
+    enough = heavy >= max(ROW_MASS, LEAST_OF_USUAL * usual_mass)
     if not enough.any():
         return None
     first = places[enough].min()

@@ -60,7 +60,7 @@ def count_rows(path: Floats, places: Floats, margin: float, direction: Side | No
     that the robot moved in on the whole.
     """
     passages = [
-        passage for row, place in enumerate(places) for passage in _passages(place - path, row, margin)
+        passage for row, place in enumerate(places) for passage in passages_of(place - path, row, margin)
     ]
     passages.sort(key=lambda passage: passage.frame)
     return RowCount(tuple(passages), direction or _net(passages))
@@ -71,8 +71,8 @@ def _net(passages: Sequence[Passage]) -> Side:
     return Side.LEFT if 2 * lefts > len(passages) else Side.RIGHT
 
 
-def _passages(beside: Floats, row: int, margin: float) -> list[Passage]:
-    """The passages of one row; beside: how far right of the middle it lies in each frame."""
+def passages_of(beside: Floats, row: int, margin: float) -> list[Passage]:
+    """The passages of one row; beside: how far right of the middle it lies in each frame, shape (frames,)."""
     clear = np.flatnonzero(np.abs(beside) > margin)
     sides = np.sign(beside[clear])
     return [

@@ -1,7 +1,7 @@
 """Frame by frame across the rows: where the camera stands, and in the end which rows it has passed.
 
-Some frames are kept as landmarks. A new frame is placed against the nearest of them, not against the one before, so
-that standing still or driving back and forth adds up no error.
+Some frames are kept as landmarks. A new frame is placed against the nearest of them, not against the one
+before, so that standing still or driving back and forth adds up no error.
 """
 
 from dataclasses import dataclass
@@ -93,6 +93,6 @@ class RowCounter:
 
 
 def _filled(path: Floats) -> Floats:
-    """A path with the places of frames that have none between those of their neighbours; zeros if none has."""
+    """A path whose gaps are bridged from the places before and after; zeros if it has nothing but gaps."""
     known = np.flatnonzero(~np.isnan(path))
     return np.interp(np.arange(len(path)), known, path[known]) if len(known) else np.zeros(len(path))

@@ -14,7 +14,7 @@ from fieldnav.perception.vegetation import Cover
 from fieldnav.pinhole import Pinhole
 from fieldnav.settings.crop import CropProfile
 
-MOST_FRAMES = 25  # that are searched for rows; more change nothing and cost time
+MOST_FRAMES = 16  # that are searched for rows; more change nothing and cost time
 FIRST = Perspective(0.4, 0.0, 0.3)
 """Until rows are found: a camera that looks down steeply, and three rows."""
 FLATTEST, STEEPEST = 0.02, 2.2  # convergence, as far as rows are searched for

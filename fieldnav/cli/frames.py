@@ -1,0 +1,93 @@
+"""Frames given on the command line, one after the other: a folder of pictures, or a video."""
+
+import os
+import stat
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path
+
+import cv2
+import numpy as np
+
+from drivers.recorded_camera import PICTURES
+from fieldnav.cli.pictures import read_picture
+from fieldnav.errors import SettingsError
+from fieldnav.messages import Image
+
+ALLOWED = "allowed is a folder of pictures, or a video that OpenCV reads"
+
+
+@dataclass(frozen=True, slots=True)
+class Frames:
+    """expected: how many there are, as far as one can tell; images: (name, picture) each, of one size."""
+
+    expected: int
+    images: Iterator[tuple[str, Image]]
+
+
+def frames_of(source: str) -> Frames:
+    """The frames of a folder, by name, or of a video. Raises SettingsError, also while they are read."""
+    try:
+        mode = os.stat(source).st_mode
+    except FileNotFoundError as error:
+        raise SettingsError(f"{source}: there is no such folder or video") from error
+    except OSError as error:
+        raise SettingsError(f"{source}: cannot be read: {error.strerror}") from error
+    except ValueError as error:  # a null byte
+        raise SettingsError(f"{source!r}: is no name that a file can have") from error
+    if stat.S_ISDIR(mode):
+        return _of_folder(source)
+    if not stat.S_ISREG(mode):
+        raise SettingsError(f"{source}: is a pipe or a device; {ALLOWED}")
+    if Path(source).suffix.lower() in PICTURES:
+        raise SettingsError(f"{source}: is a single picture; {ALLOWED}")
+    return _of_video(source)
+
+
+def _of_folder(source: str) -> Frames:
+    try:
+        names = sorted(name for name in os.listdir(source) if Path(name).suffix.lower() in PICTURES)
+    except OSError as error:
+        raise SettingsError(f"{source}: cannot be read: {error.strerror}") from error
+    if not names:
+        raise SettingsError(f"{source}: holds no picture; allowed are {', '.join(PICTURES)}")
+    paths = [os.path.join(source, name) for name in names]
+    return Frames(len(paths), _of_one_size((path, read_picture(path)) for path in paths))
+
+
+def _of_video(source: str) -> Frames:
+    level = cv2.utils.logging.setLogLevel(cv2.utils.logging.LOG_LEVEL_SILENT)
+    try:
+        capture = cv2.VideoCapture(source)
+    finally:
+        cv2.utils.logging.setLogLevel(level)
+    if not capture.isOpened():
+        raise SettingsError(f"{source}: is no video that can be read; {ALLOWED}")
+    # A video's head need not tell the truth.
+    return Frames(max(int(capture.get(cv2.CAP_PROP_FRAME_COUNT)), 1), _of_one_size(_played(source, capture)))
+
+
+def _played(source: str, capture: cv2.VideoCapture) -> Iterator[tuple[str, Image]]:
+    try:
+        number = 0
+        while True:
+            whole, image = capture.read()
+            if not whole:
+                break
+            yield f"{source}: frame {number}", np.asarray(image, dtype=np.uint8)
+            number += 1
+    finally:
+        capture.release()
+    if number == 0:
+        raise SettingsError(f"{source}: holds no frame that can be read; {ALLOWED}")
+
+
+def _of_one_size(images: Iterator[tuple[str, Image]]) -> Iterator[tuple[str, Image]]:
+    """The same frames; raises SettingsError for one that another camera took."""
+    first: tuple[int, ...] | None = None
+    for name, image in images:
+        first = image.shape if first is None else first
+        if image.shape != first:
+            sizes = [f"{width}x{height} px" for height, width, *_ in (image.shape, first)]
+            raise SettingsError(f"{name}: is {sizes[0]}; allowed is {sizes[1]}, the size of the first frame")
+        yield name, image

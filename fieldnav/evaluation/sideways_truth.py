@@ -1,0 +1,97 @@
+"""Photographs of a camera that moves sideways over rows, and which of them it truly crosses, from gt.json."""
+
+import json
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from enum import Enum
+from pathlib import Path
+
+import numpy as np
+from pydantic import BaseModel, ConfigDict, Field, FiniteFloat, ValidationError
+
+from fieldnav.errors import SettingsError
+from fieldnav.evaluation.photographs import read_photograph, read_words
+from fieldnav.messages import Floats, Image, Side
+from fieldnav.perception.row_count import RowCount, passages_of
+from fieldnav.settings.problems import describe
+
+TRUTH = "gt.json"
+
+
+class Mode(Enum):
+    """The way that the camera moves."""
+
+    LATERAL = "lateral"
+    FORWARD = "forward"
+
+
+class _Row(BaseModel):
+    model_config = ConfigDict(frozen=True)
+    id: int
+    x_top: FiniteFloat
+    x_bottom: FiniteFloat
+
+
+class _Frame(BaseModel):
+    model_config = ConfigDict(frozen=True)
+    file: str = Field(min_length=1)
+    rows: tuple[_Row, ...]
+
+
+class _Sequence(BaseModel):
+    model_config = ConfigDict(frozen=True)
+    size: tuple[int, int]
+    mode: Mode
+    frames: tuple[_Frame, ...] = Field(min_length=1)
+
+
+@dataclass(frozen=True, slots=True)
+class SidewaysSequence:
+    """The pictures, and where each row passes mid-height in each of them.
+
+    beside: shape (rows, frames), pixels right of the centre column, NaN in frames that a row is not in.
+    """
+
+    name: str
+    paths: tuple[Path, ...]
+    beside: Floats
+
+    def images(self) -> list[Image]:
+        """Every picture. Raises SettingsError."""
+        return [read_photograph(path) for path in self.paths]
+
+
+def sequences_in(folder: Path) -> list[SidewaysSequence]:
+    """The sequences taken sideways among the folders of a folder, by name. Raises SettingsError."""
+    read = [(path.parent, _read(path)) for path in sorted(folder.glob(f"*/{TRUTH}"))]
+    return [_sequence(parent, document) for parent, document in read if document.mode is Mode.LATERAL]
+
+
+def true_count(beside: Floats, frames: Sequence[int], direction: Side) -> RowCount:
+    """What is to be counted when frames, by their numbers, are shown one after the other."""
+    shown = beside[:, np.asarray(frames, np.int64)]
+    passages = []
+    for row, places in enumerate(shown):
+        there = np.flatnonzero(~np.isnan(places))
+        for passage in passages_of(places[there], row, 0.0):
+            passages.append(replace(passage, frame=int(there[passage.frame])))
+    return RowCount(tuple(sorted(passages, key=lambda passage: passage.frame)), direction)
+
+
+def _read(path: Path) -> _Sequence:
+    try:
+        return _Sequence.model_validate(json.loads(read_words(path)))
+    except ValidationError as error:
+        raise SettingsError(f"{path}: {describe(error, _Sequence)[0]}") from error
+    except ValueError as error:
+        raise SettingsError(f"{path}: is no JSON: {error}") from error
+
+
+def _sequence(folder: Path, document: _Sequence) -> SidewaysSequence:
+    numbers = sorted({row.id for frame in document.frames for row in frame.rows})
+    beside = np.full((len(numbers), len(document.frames)), np.nan)
+    for at, frame in enumerate(document.frames):
+        for row in frame.rows:
+            beside[numbers.index(row.id), at] = (row.x_top + row.x_bottom) / 2 - (document.size[0] - 1) / 2
+    paths = tuple(folder / frame.file for frame in document.frames)
+    return SidewaysSequence(folder.name, paths, beside)
