@@ -8,7 +8,7 @@ from typing import Annotated
 
 import typer
 
-from fieldnav.cli.bench_report import document, report_table
+from fieldnav.cli.bench_report import document, markdown, report_table
 from fieldnav.cli.checkout import commit, machine
 from fieldnav.cli.console import out, print_json
 from fieldnav.errors import OutputError, SettingsError
@@ -32,6 +32,7 @@ DataOption = Annotated[
 ]
 QuickOption = Annotated[bool, typer.Option("--quick", help="A smaller sample, in under a minute.")]
 JsonOption = Annotated[bool, typer.Option("--json", help="Print one JSON object, for programs.")]
+MarkdownOption = Annotated[bool, typer.Option("--markdown", help="Print the table for a document.")]
 ThreadsOption = Annotated[
     int | None, typer.Option(min=1, max=MOST_THREADS, help="Threads that OpenCV may use.")
 ]
@@ -42,6 +43,7 @@ def detection(
     data: DataOption = None,
     quick: QuickOption = False,
     as_json: JsonOption = False,
+    as_markdown: MarkdownOption = False,
     threads: ThreadsOption = None,
     plot: Annotated[
         Path | None, typer.Option(metavar="DIR", help="Folder that reliability.png is drawn into.")
@@ -57,7 +59,7 @@ def detection(
     _use_threads(threads)
     from fieldnav.evaluation.detection import detection as measure  # noqa: PLC0415 - loads OpenCV
 
-    _report("detection", measure, plan, as_json)
+    _report("detection", measure, plan, as_json, as_markdown)
 
 
 @bench.command()
@@ -65,6 +67,7 @@ def speed(
     data: DataOption = None,
     quick: QuickOption = False,
     as_json: JsonOption = False,
+    as_markdown: MarkdownOption = False,
     threads: ThreadsOption = 1,
 ) -> None:
     """Time what is done to every frame, against the bare primitives it is made of.
@@ -73,7 +76,7 @@ def speed(
     """
     plan = Plan(_folder(data), quick)
     _use_threads(threads)
-    _report("speed", _speed, plan, as_json)
+    _report("speed", _speed, plan, as_json, as_markdown)
 
 
 def _speed(plan: Plan, progress: Progress) -> Report:
@@ -115,13 +118,18 @@ def _use_threads(threads: int | None) -> None:
         cv2.setNumThreads(threads)
 
 
-def _report(name: str, measure: Callable[[Plan, Progress], Report], plan: Plan, as_json: bool) -> None:
+def _report(
+    name: str, measure: Callable[[Plan, Progress], Report], plan: Plan, as_json: bool, as_markdown: bool
+) -> None:
     """Measure and print; the figures are reported whatever they are."""
     report = _measured(measure, plan)
     if as_json:
         print_json(document(name, commit(), report))
         return
     title = f"{name}: fieldnav {commit()} on {machine()}"
+    if as_markdown:
+        print(markdown(title, report))
+        return
     out().print(report_table(title, report))
 
 

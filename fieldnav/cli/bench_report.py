@@ -23,6 +23,14 @@ def report_table(title: str, report: Report) -> Table:
     return table(title, COLUMNS, rows, right=FIGURES)
 
 
+def markdown(title: str, report: Report) -> str:
+    """The same table for a document."""
+    rows = [*map(_line, report.figures), *map(_absence, report.left_out)]
+    rule = ("---:" if column in FIGURES else "---" for column in COLUMNS)
+    lines = [COLUMNS, rule, *([str(cell) for cell in row] for row in rows)]
+    return "\n".join([title, "", *(f"| {' | '.join(line)} |" for line in lines)])
+
+
 def _absence(part: LeftOut) -> tuple[str | Text, ...]:
     said = Text(f"left out: {part.reason}", style="yellow")
     return (part.part, said, *[""] * (len(COLUMNS) - 2))

@@ -8,8 +8,8 @@ from fieldnav.cli.findings import Finding, Verdict
 from fieldnav.messages import Frame, Image
 from fieldnav.perception.camera_pose import PoseSighting, sight
 from fieldnav.perception.perceive import find
-from fieldnav.perception.pose_estimate import CERTAIN, Departure, PoseEstimate
 from fieldnav.perception.plants import find_plants
+from fieldnav.perception.pose_estimate import CERTAIN, Departure, PoseEstimate
 from fieldnav.pinhole import Pinhole
 from fieldnav.settings.crop import CropProfile
 from fieldnav.settings.robot import CameraLimits

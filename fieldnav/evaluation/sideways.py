@@ -5,12 +5,12 @@ Each sequence is shown forwards, backwards, with a stop, backing up on the way, 
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from enum import Enum
 
 import numpy as np
 
 from fieldnav.evaluation.benchmark import Better, Figure, LeftOut, Plan, Progress, Report
 from fieldnav.evaluation.photographs import PhotographSet
+from fieldnav.evaluation.showing import Showing, order_of
 from fieldnav.evaluation.sidestep_scene import SidestepScene
 from fieldnav.evaluation.sideways_truth import sequences_in, true_count
 from fieldnav.messages import Floats, Image, Side
@@ -27,25 +27,12 @@ RENDERED = "rendered sidesteps"
 FOLDER = "seq"
 WITHIN = 2  # frames between a crossing and the true one; at working speed 2 cm
 GOAL_PERCENT, PERCENT = 100.0, 100.0
-STOP = 15  # frames that a robot stands for, one second
-DROPPED = 3  # one frame in so many is left
+QUICK_STEP = 3  # times as far between rendered pictures
 FIELDS = ("demo", "sim-dense-weed", "potato", "beans")
 SEEDS, QUICK_SEEDS = 3, 1
 ROBOT = "bonnbot"
 LENGTH_M, ALONG_M, LANES = 14.0, 6.0, 2
 STEP_M = 0.01  # 0.15 m/s at 15 frames/s
-
-
-class Showing(Enum):
-    """What the robot does while a sequence is shown."""
-
-    FORWARDS = "forwards"
-    BACKWARDS = "backwards"
-    STOP = "with a stop"
-    BACK_UP = "backing up"
-    DROPPED = "two of three frames dropped"
-
-
 QUICK_SHOWN = (Showing.FORWARDS, Showing.BACK_UP)
 Known = tuple[CropProfile | None, Pinhole | None]
 UNKNOWN: Known = (None, None)
@@ -88,7 +75,7 @@ def _rendered(plan: Plan, progress: Progress) -> list[Figure]:
         for seed in range(plan.seed, plan.seed + seeds):
             field = revised(load_field(name), {"lanes": LANES, "length_m": LENGTH_M, "seed": seed})
             crop = load_crop(field.crop)
-            images, beside = _sidestep(field, crop, robot, STEP_M * (DROPPED if plan.quick else 1))
+            images, beside = _sidestep(field, crop, robot, STEP_M * (QUICK_STEP if plan.quick else 1))
             for case, known in {"": (crop, robot.cameras.front.pinhole()), ", unknown": UNKNOWN}.items():
                 judged[case].append(_shown(images, beside, known, shown))
         for case, of_seeds in judged.items():
@@ -105,22 +92,6 @@ def _sidestep(
     places_m = np.arange(-pitch_m / 2, (LANES - 1 / 2) * pitch_m, step_m)
     steps = list(SidestepScene(field, crop, robot).pictures(places_m, ALONG_M))
     return [step.image for step in steps], np.stack([step.beside_px for step in steps], axis=1)
-
-
-def order_of(showing: Showing, count: int) -> list[int]:
-    """Which of so many frames are shown, one after the other."""
-    forwards, third = list(range(count)), count // 3
-    match showing:
-        case Showing.FORWARDS:
-            return forwards
-        case Showing.BACKWARDS:
-            return forwards[::-1]
-        case Showing.STOP:
-            return forwards[:third] + [third] * STOP + forwards[third:]
-        case Showing.BACK_UP:
-            return forwards[: 2 * third] + forwards[third : 2 * third][::-1] + forwards[third:]
-        case Showing.DROPPED:
-            return forwards[::DROPPED]
 
 
 def _shown(

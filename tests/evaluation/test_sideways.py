@@ -9,8 +9,9 @@ import pytest
 
 from fieldnav.errors import SettingsError
 from fieldnav.evaluation.benchmark import Figure, Plan
+from fieldnav.evaluation.showing import Showing, order_of
 from fieldnav.evaluation.sidestep_scene import SidestepScene
-from fieldnav.evaluation.sideways import Showing, judge, order_of, sideways
+from fieldnav.evaluation.sideways import judge, sideways
 from fieldnav.evaluation.sideways_truth import sequences_in, true_count
 from fieldnav.messages import Side
 from fieldnav.perception.row_count import Passage, RowCount

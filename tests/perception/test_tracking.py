@@ -8,10 +8,10 @@ import pytest
 from fieldnav.messages import Centres
 from fieldnav.perception.parts import ImagePart
 from fieldnav.perception.perceive import find
+from fieldnav.perception.plants import NO_PLANTS, find_plants
 from fieldnav.perception.row_end import centres_in_rows, crop_stretch_m, farthest_crop_m
 from fieldnav.perception.row_end import nearest_crop_m as nearest_m
 from fieldnav.perception.tracking import TrackedRows, feature, start, track
-from fieldnav.perception.plants import NO_PLANTS, find_plants
 
 PERIOD_S = 1 / 15
 

@@ -1,0 +1,54 @@
+"""Both finders behind their one interface: the same rows, each in its own way."""
+
+from types import SimpleNamespace
+
+import pytest
+
+from fieldnav.perception.perceive import find, lane_of
+from fieldnav.settings.crop import CropProfile, Finding, RowFinder
+
+
+def by(crop: CropProfile, method: RowFinder) -> CropProfile:
+    return crop.model_copy(update={"finding": Finding(method=method)})
+
+
+@pytest.mark.parametrize("method", RowFinder)
+@pytest.mark.parametrize("slope", [-0.05, 0.0, 0.05])
+def test_every_method_finds_the_rows_of_the_lane(
+    drawn: SimpleNamespace, method: RowFinder, slope: float
+) -> None:
+    crop = by(drawn.beet, method)
+    image = drawn.picture(crop, drawn.camera, drawn.stand(crop, 0.03, slope, 0.01))
+
+    view = find(image, crop, drawn.camera)
+
+    assert view.lane
+    for row, true in zip(view.lane.rows, drawn.rows(crop, drawn.camera, 0.03, slope), strict=True):
+        assert row.x_bottom_px == pytest.approx(true.x_bottom_px, abs=15)
+        assert row.x_top_px == pytest.approx(true.x_top_px, abs=15)
+    assert view.paths_px.shape[0] == len(view.lines)
+
+
+@pytest.mark.parametrize("method", RowFinder)
+def test_no_method_believes_in_weeds(drawn: SimpleNamespace, method: RowFinder) -> None:
+    crop = by(drawn.beet, method)
+    for seed in range(4):
+        image = drawn.picture(crop, drawn.camera, drawn.strewn(0, seed), drawn.strewn(25, seed), 0.025)
+        assert find(image, crop, drawn.camera).lane is None
+
+
+def test_a_camera_whose_pose_is_not_trusted_is_searched_for_more_widely(drawn: SimpleNamespace) -> None:
+    crop = drawn.profile(5, 0.25)
+    low = drawn.pinhole()
+    image = drawn.picture(crop, low, drawn.stand(crop, 0.02))
+    high = type(low)(low.width_px, low.height_px, low.focal_px, 1.7, low.tilt_rad, low.forward_m)
+
+    assert len(find(image, crop, high, surely=False).lines) >= 4
+    assert find(image, crop, high).lane is None
+
+
+def test_plants_are_enough_to_find_the_lane_again(drawn: SimpleNamespace) -> None:
+    image = drawn.picture(drawn.beet, drawn.camera, drawn.stand(drawn.beet, scatter_m=0.01))
+    view = find(image, drawn.beet, drawn.camera)
+
+    assert lane_of(view.cover, view.centres, drawn.beet, drawn.camera) == view.lane
