@@ -1,7 +1,7 @@
 """Follow.Coasting: rows lost for a moment; straight on, slowly and boundedly, until they are found again."""
 
 from fieldnav.messages import CameraName, Direction, Evidence, Motion, Twist
-from fieldnav.perception.parts import ImagePart
+from fieldnav.perception.image_halves import ImagePart
 from fieldnav.perception.perceive import find
 from fieldnav.perception.row_end import crop_in_rows
 from fieldnav.perception.tracking import start

@@ -7,7 +7,7 @@ import numpy as np
 from fieldnav.control.servoing import yaw_rate
 from fieldnav.messages import CameraName, Centres, Direction, Evidence, Frame, Motion, Twist
 from fieldnav.perception.canopy import canopy_plane
-from fieldnav.perception.parts import ImagePart
+from fieldnav.perception.image_halves import ImagePart
 from fieldnav.perception.perceive import lane_of
 from fieldnav.perception.plants import plants_in
 from fieldnav.perception.row_end import crop_in_rows, nearest_crop_m

@@ -4,7 +4,7 @@ from math import degrees
 
 from fieldnav.control.servoing import yaw_rate
 from fieldnav.messages import CameraName, Direction, Evidence, Motion, Twist
-from fieldnav.perception.parts import ImagePart
+from fieldnav.perception.image_halves import ImagePart
 from fieldnav.perception.plants import find_plants
 from fieldnav.perception.row_end import crop_in_rows
 from fieldnav.perception.tracking import feature, track

@@ -10,7 +10,7 @@ from drivers.recorded_camera import PICTURES
 from fieldnav.cli.findings import Finding, Verdict
 from fieldnav.errors import DriverError
 from fieldnav.messages import CameraName, Frame
-from fieldnav.perception.picture_quality import difference, quality, same
+from fieldnav.perception.pose.picture_quality import difference, quality, same
 from fieldnav.settings.robot import CameraSettings
 
 FRAMES = 8

@@ -14,8 +14,8 @@ from fieldnav.settings.robot import LARGEST_SIDE_PX
 
 if TYPE_CHECKING:
     from fieldnav.cli.frames import Frames
-    from fieldnav.perception.row_count import RowCount
-    from fieldnav.perception.row_counter import RowCounter
+    from fieldnav.perception.counting.row_count import RowCount
+    from fieldnav.perception.counting.row_counter import RowCounter
     from fieldnav.settings.crop import CropProfile
     from fieldnav.settings.robot import CameraSettings
 
@@ -86,7 +86,7 @@ def _taken_in(
     camera: "CameraSettings | None",
     tell: Callable[[str, int, int], None],
 ) -> "RowCounter":
-    from fieldnav.perception.row_counter import RowCounter  # noqa: PLC0415 - loads OpenCV
+    from fieldnav.perception.counting.row_counter import RowCounter  # noqa: PLC0415 - loads OpenCV
     from fieldnav.settings.loading import revised  # noqa: PLC0415 - the same
 
     counter: RowCounter | None = None

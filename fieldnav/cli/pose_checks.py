@@ -6,10 +6,10 @@ import numpy as np
 
 from fieldnav.cli.findings import Finding, Verdict
 from fieldnav.messages import Frame, Image
-from fieldnav.perception.camera_pose import PoseSighting, sight
 from fieldnav.perception.perceive import find
 from fieldnav.perception.plants import find_plants
-from fieldnav.perception.pose_estimate import CERTAIN, Departure, PoseEstimate
+from fieldnav.perception.pose.camera_pose import PoseSighting, sight
+from fieldnav.perception.pose.pose_estimate import CERTAIN, Departure, PoseEstimate
 from fieldnav.pinhole import Pinhole
 from fieldnav.settings.crop import CropProfile
 from fieldnav.settings.robot import CameraLimits

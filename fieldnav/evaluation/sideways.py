@@ -14,8 +14,8 @@ from fieldnav.evaluation.showing import Showing, order_of
 from fieldnav.evaluation.sidestep_scene import SidestepScene
 from fieldnav.evaluation.sideways_truth import sequences_in, true_count
 from fieldnav.messages import Floats, Image, Side
-from fieldnav.perception.row_count import RowCount
-from fieldnav.perception.row_counter import RowCounter
+from fieldnav.perception.counting.row_count import RowCount
+from fieldnav.perception.counting.row_counter import RowCounter
 from fieldnav.pinhole import Pinhole
 from fieldnav.settings.crop import CropProfile
 from fieldnav.settings.field import FieldSettings

@@ -12,7 +12,7 @@ from pydantic import BaseModel, ConfigDict, Field, FiniteFloat, ValidationError
 from fieldnav.errors import SettingsError
 from fieldnav.evaluation.photographs import read_photograph, read_words
 from fieldnav.messages import Floats, Image, Side
-from fieldnav.perception.row_count import RowCount, passages_of
+from fieldnav.perception.counting.row_count import RowCount, passages_of
 from fieldnav.settings.problems import describe
 
 TRUTH = "gt.json"

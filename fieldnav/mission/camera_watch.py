@@ -3,8 +3,8 @@
 from dataclasses import replace
 
 from fieldnav.messages import CameraName, Evidence
-from fieldnav.perception.camera_pose import sight
-from fieldnav.perception.pose_estimate import Departure, PoseEstimate
+from fieldnav.perception.pose.camera_pose import sight
+from fieldnav.perception.pose.pose_estimate import Departure, PoseEstimate
 from fieldnav.settings.robot import CameraLimits
 from states.behaviour import Step, Task
 from states.names import Follow, Path

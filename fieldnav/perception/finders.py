@@ -7,10 +7,10 @@ import numpy as np
 from fieldnav.messages import Centres
 from fieldnav.perception import moving_variance
 from fieldnav.perception.canopy import canopy_plane, line_px
-from fieldnav.perception.comb_finder import find_comb, rows_in
+from fieldnav.perception.comb.finder import find_comb, rows_in
+from fieldnav.perception.comb.search_range import range_of
 from fieldnav.perception.found import NO_ROWS, Found
 from fieldnav.perception.ground_plants import on_ground
-from fieldnav.perception.search_range import range_of
 from fieldnav.perception.settle import settle_lines
 from fieldnav.perception.vegetation import Cover
 from fieldnav.pinhole import Pinhole
@@ -18,14 +18,14 @@ from fieldnav.settings.crop import CropProfile, RowFinder
 
 
 def find_rows(
-    cover: Cover, centres: Centres, crop: CropProfile, camera: Pinhole, surely: bool = True
+    cover: Cover, centres: Centres, crop: CropProfile, camera: Pinhole, pose_known: bool = True
 ) -> Found:
     """The rows of a frame by the method that the profile names; see `perceive.find`."""
-    return _FINDERS[crop.finding.method](cover, centres, crop, camera, surely)
+    return _FINDERS[crop.finding.method](cover, centres, crop, camera, pose_known)
 
 
 def _by_moving_variance(
-    cover: Cover, centres: Centres, crop: CropProfile, camera: Pinhole, surely: bool
+    cover: Cover, centres: Centres, crop: CropProfile, camera: Pinhole, pose_known: bool
 ) -> Found:
     lines = moving_variance.find_rows(centres, crop.finding, camera)
     lines = settle_lines(lines, None, on_ground(centres, crop, camera), crop, camera)
@@ -34,8 +34,8 @@ def _by_moving_variance(
     return Found(lines, np.array(paths).reshape(len(lines), len(y), 2))
 
 
-def _by_comb(cover: Cover, centres: Centres, crop: CropProfile, camera: Pinhole, surely: bool) -> Found:
-    found = find_comb(cover, range_of(canopy_plane(camera, crop), crop.rows.spacing_m, surely))
+def _by_comb(cover: Cover, centres: Centres, crop: CropProfile, camera: Pinhole, pose_known: bool) -> Found:
+    found = find_comb(cover, range_of(canopy_plane(camera, crop), crop.rows.spacing_m, pose_known))
     return rows_in(*found, cover) if found else NO_ROWS
 
 

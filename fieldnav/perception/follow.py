@@ -6,8 +6,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fieldnav.messages import Floats, RowLine
-from fieldnav.perception.comb_fit import Comb, Indices, fit, members
 from fieldnav.perception.ground_plants import GroundPlants
+from fieldnav.perception.ground_rows import GroundRows, Indices, fit, members
 from fieldnav.perception.lane import comb_m
 from fieldnav.pinhole import Pinhole
 from fieldnav.settings.crop import CropProfile
@@ -25,7 +25,7 @@ STRAY = 0.3  # share of the plants that is no crop
 class Followed:
     """A comb after a frame; seen: which rows the frame showed; counts: plants in each. Shape (rows,)."""
 
-    comb: Comb
+    comb: GroundRows
     seen: NDArray[np.bool_]
     counts: Indices
 
@@ -45,16 +45,16 @@ def widest_m(crop: CropProfile) -> float:
     return WIDEST * crop.rows.spacing_m
 
 
-def comb_of(rows: tuple[RowLine, ...], crop: CropProfile, plane: Pinhole) -> Comb:
+def comb_of(rows: tuple[RowLine, ...], crop: CropProfile, plane: Pinhole) -> GroundRows:
     """The comb on the ground that a lane's row lines make."""
     about_m = sum(plane.view_m) / 2
     offset, slope = np.array([plane.row_on_ground(row) for row in rows]).T
     place = offset + slope * about_m
     middle = float(np.mean(place - comb_m(crop)))
-    return Comb(middle, float(np.mean(slope)), place - middle, slope - np.mean(slope), about_m)
+    return GroundRows(middle, float(np.mean(slope)), place - middle, slope - np.mean(slope), about_m)
 
 
-def follow(comb: Comb, plants: GroundPlants, crop: CropProfile) -> Followed:
+def follow(comb: GroundRows, plants: GroundPlants, crop: CropProfile) -> Followed:
     """Fit a comb to the plants near its rows: first in wide parallelograms, then in the canopy's."""
     for wider in (WIDER, 1.0):
         row = members(comb, plants, widest_m(crop), wider)
@@ -63,7 +63,7 @@ def follow(comb: Comb, plants: GroundPlants, crop: CropProfile) -> Followed:
     return _kept_in_place(comb, counts, crop)
 
 
-def _kept_in_place(comb: Comb, counts: Indices, crop: CropProfile) -> Followed:
+def _kept_in_place(comb: GroundRows, counts: Indices, crop: CropProfile) -> Followed:
     """Draw the rows towards their places in the comb; one that has left its place has not been seen."""
     place = comb_m(crop)
     off = comb.place_m - place

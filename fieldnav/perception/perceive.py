@@ -35,15 +35,15 @@ def find(
     crop: CropProfile,
     camera: Pinhole,
     widest_offset_m: float | None = None,
-    surely: bool = True,
+    pose_known: bool = True,
 ) -> View:
     """Find the rows of a frame without knowing any before; see `lane_rows` for `widest_offset_m`.
 
-    surely: whether the camera's pose is known but for calibration and shaking.
+    pose_known: whether the camera's pose is known but for calibration and shaking.
     """
     cover = vegetation_of(image, crop.vegetation)
     centres = plants_in(cover, crop.vegetation, camera)
-    found = find_rows(cover, centres, crop, camera, surely)
+    found = find_rows(cover, centres, crop, camera, pose_known)
     lane = _lane(found, centres, crop, camera, widest_offset_m)
     sure = found.sure()
     return View(cover, centres, sure.lines, sure.paths_px, lane)

@@ -5,10 +5,10 @@ from numpy.typing import NDArray
 
 from fieldnav.messages import Centres, Floats, RowLine
 from fieldnav.perception.canopy import canopy_plane
-from fieldnav.perception.comb_fit import members
 from fieldnav.perception.follow import comb_of, widest_m
 from fieldnav.perception.ground_plants import on_ground
-from fieldnav.perception.parts import ImagePart, lies_in
+from fieldnav.perception.ground_rows import members
+from fieldnav.perception.image_halves import ImagePart, lies_in
 from fieldnav.pinhole import Pinhole
 from fieldnav.settings.crop import CropProfile
 

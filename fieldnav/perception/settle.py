@@ -4,12 +4,12 @@ import numpy as np
 
 from fieldnav.messages import Floats, RowLine
 from fieldnav.perception.canopy import canopy_plane
-from fieldnav.perception.comb_fit import Comb, fit, members
-from fieldnav.perception.comb_search import support
 from fieldnav.perception.follow import STRAY, Followed, follow, scatter_m, widest_m
 from fieldnav.perception.found import LEAST_CONFIDENCE
 from fieldnav.perception.ground_plants import GroundPlants
+from fieldnav.perception.ground_rows import GroundRows, fit, members
 from fieldnav.perception.lane import LEAST_SHARE, LaneFit, comb_m, widest_offset
+from fieldnav.perception.lane_search import support
 from fieldnav.pinhole import Pinhole
 from fieldnav.settings.crop import CropProfile
 
@@ -45,7 +45,7 @@ def settle(
         middle = lane.offset_m + lane.slope * about_m
         if scores.near(middle, lane.slope) * CLEARLY_BETTER >= best:
             offset, slope = middle, lane.slope
-    followed = follow(Comb(offset, slope, place, np.zeros(len(place)), about_m), plants, crop)
+    followed = follow(GroundRows(offset, slope, place, np.zeros(len(place)), about_m), plants, crop)
     for _ in range(ROUNDS - 1):
         followed = follow(followed.comb, plants, crop)
     sure = _sure_of(lane, len(place))
@@ -69,7 +69,7 @@ def _log_odds(sure: Floats) -> float:
     return float(np.log(odds / (1 - odds)))
 
 
-def evidence(comb: Comb, plants: GroundPlants, crop: CropProfile, plane: Pinhole) -> float:
+def evidence(comb: GroundRows, plants: GroundPlants, crop: CropProfile, plane: Pinhole) -> float:
     """How much likelier the plants are with these rows than strewn over the view, as a natural logarithm.
 
     Each plant adds its likelihood ratio, by its weight: normally distributed about the nearest row, or, with
@@ -102,7 +102,7 @@ def settle_lines(
     confidence = np.array([line.confidence for line in lines])
     common = float(np.average(slope, weights=confidence)) if heading is None else heading
     middle = offset + slope * about_m
-    comb = Comb(0.0, common, middle, np.zeros(len(lines)), about_m)
+    comb = GroundRows(0.0, common, middle, np.zeros(len(lines)), about_m)
     for _ in range(ROUNDS):
         row = members(comb, plants, widest_m(crop))
         comb = fit(comb, plants, row, scatter_m(crop), LINE_OFFSET_PRIOR_M)

@@ -6,14 +6,14 @@ from math import atan, sin
 import numpy as np
 
 from fieldnav.messages import Image
-from fieldnav.perception.bands import LEVEL
-from fieldnav.perception.comb_finder import convergence_of, find_comb, rows_in
+from fieldnav.perception.comb.bands import LEVEL
+from fieldnav.perception.comb.finder import convergence_of, find_comb, rows_in
+from fieldnav.perception.comb.row_comb import RowComb
+from fieldnav.perception.comb.search_range import any_camera
 from fieldnav.perception.finders import find_rows
 from fieldnav.perception.found import NO_ROWS
 from fieldnav.perception.perceive import View
 from fieldnav.perception.plants import NO_PLANTS, plants_in
-from fieldnav.perception.row_comb import RowComb
-from fieldnav.perception.search_range import any_camera
 from fieldnav.perception.vegetation import Cover, vegetation_of
 from fieldnav.pinhole import Pinhole
 from fieldnav.settings.crop import CropProfile, RowFinder, Vegetation
@@ -39,7 +39,7 @@ def find_unposed(image: Image, crop: CropProfile | None) -> Unposed:
     """Find the rows of a picture of an unknown camera, of a crop that may be unknown."""
     vegetation = crop.vegetation if crop else Vegetation()
     cover = vegetation_of(image, vegetation)
-    combed = find_comb(cover, any_camera(crop))
+    combed = find_comb(cover, any_camera(crop.rows.spacing_m if crop else None))
     found = rows_in(*combed, cover).sure() if combed else NO_ROWS
     if not combed or not found.lines:
         return Unposed(View(cover, NO_PLANTS, (), NO_ROWS.paths_px, None), None)

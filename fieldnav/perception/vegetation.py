@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fieldnav.messages import Image
-from fieldnav.perception.parts import ImagePart
+from fieldnav.perception.image_halves import ImagePart
 from fieldnav.settings.crop import Vegetation
 
 Mask = NDArray[np.uint8]

@@ -14,8 +14,8 @@ from fieldnav.evaluation.sidestep_scene import SidestepScene
 from fieldnav.evaluation.sideways import judge, sideways
 from fieldnav.evaluation.sideways_truth import sequences_in, true_count
 from fieldnav.messages import Side
-from fieldnav.perception.row_count import Passage, RowCount
-from fieldnav.perception.row_counter import RowCounter
+from fieldnav.perception.counting.row_count import Passage, RowCount
+from fieldnav.perception.counting.row_counter import RowCounter
 from fieldnav.settings.loading import load_crop, load_field, load_robot, revised
 
 WIDTH, HEIGHT, STEP_PX = 320, 240, 10

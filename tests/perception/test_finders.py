@@ -43,7 +43,7 @@ def test_a_camera_whose_pose_is_not_trusted_is_searched_for_more_widely(drawn: S
     image = drawn.picture(crop, low, drawn.stand(crop, 0.02))
     high = type(low)(low.width_px, low.height_px, low.focal_px, 1.7, low.tilt_rad, low.forward_m)
 
-    assert len(find(image, crop, high, surely=False).lines) >= 4
+    assert len(find(image, crop, high, pose_known=False).lines) >= 4
     assert find(image, crop, high).lane is None
 
 

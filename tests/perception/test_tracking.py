@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from fieldnav.messages import Centres
-from fieldnav.perception.parts import ImagePart
+from fieldnav.perception.image_halves import ImagePart
 from fieldnav.perception.perceive import find
 from fieldnav.perception.plants import NO_PLANTS, find_plants
 from fieldnav.perception.row_end import centres_in_rows, crop_stretch_m, farthest_crop_m

@@ -4,7 +4,8 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
-from fieldnav.perception.comb.bands import COLUMNS, COUNT, Bands
+
+from fieldnav.perception.comb.bands import BAND_COUNT, COLUMNS, Bands
 from fieldnav.perception.comb.row_comb import RowComb, straight
 
 
@@ -14,9 +15,9 @@ def drawn_comb(
     """Bands on which vegetation stands along the comb's rows, as wide as a share of their spacing."""
     column = (np.arange(COLUMNS) + 0.5) / COLUMNS - 0.5
     strength = (
-        np.random.default_rng(seed).uniform(0, noise, (COUNT, COLUMNS))
+        np.random.default_rng(seed).uniform(0, noise, (BAND_COUNT, COLUMNS))
         if noise
-        else np.zeros((COUNT, COLUMNS))
+        else np.zeros((BAND_COUNT, COLUMNS))
     )
     for number in set(comb.numbers.tolist()) - set(without):
         off = (column - (comb.middle + number * comb.spacing)[:, None]) / comb.spacing[:, None]

@@ -4,12 +4,13 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
-from fieldnav.perception.comb.bands import COLUMNS, COUNT, LEVEL, Bands
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from fieldnav.perception.comb.bands import BAND_COUNT, COLUMNS, LEVEL, Bands
 from fieldnav.perception.comb.periodogram import candidates
 from fieldnav.perception.comb.row_comb import straight
 from fieldnav.perception.comb.search_range import any_camera
-from hypothesis import given, settings
-from hypothesis import strategies as st
 
 
 @settings(deadline=None, max_examples=12)
@@ -35,4 +36,4 @@ def test_candidates_come_best_first(teeth: SimpleNamespace) -> None:
 
 
 def test_without_vegetation_there_is_no_candidate() -> None:
-    assert candidates(Bands(np.zeros((COUNT, COLUMNS), np.float32)), any_camera(None)) == ()
+    assert candidates(Bands(np.zeros((BAND_COUNT, COLUMNS), np.float32)), any_camera(None)) == ()

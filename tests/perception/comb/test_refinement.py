@@ -4,12 +4,13 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
 from fieldnav.perception.comb.bands import LEVEL
 from fieldnav.perception.comb.finder import OBLIQUE_VIEW, STEEP_VIEW
 from fieldnav.perception.comb.refinement import off_centre, refine, teeth_of
 from fieldnav.perception.comb.row_comb import RowComb, straight
-from hypothesis import given, settings
-from hypothesis import strategies as st
 
 
 @settings(deadline=None, max_examples=15)

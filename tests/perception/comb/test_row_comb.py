@@ -5,11 +5,11 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
-from fieldnav.perception.comb.bands import LEVEL, Bands
-from fieldnav.perception.comb.row_comb import RowComb, straight
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from fieldnav.perception.comb.bands import LEVEL, Bands
+from fieldnav.perception.comb.row_comb import RowComb, straight
 from fieldnav.pinhole import Pinhole
 
 

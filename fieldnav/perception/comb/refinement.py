@@ -6,8 +6,8 @@ import numpy as np
 from numpy.polynomial import legendre
 
 from fieldnav.messages import Floats
-from fieldnav.perception.bands import LEVEL, Bands
-from fieldnav.perception.row_comb import RowComb
+from fieldnav.perception.comb.bands import LEVEL, Bands
+from fieldnav.perception.comb.row_comb import RowComb
 
 REACH = 0.5  # of the spacing: what lies nearer to a tooth than to the next belongs to it
 SAMPLES = 25  # across that
@@ -42,7 +42,7 @@ class Teeth:
     """The vegetation about every tooth.
 
     numbers: of the rows, shape (rows,); profile: strength across a tooth less what lies between the rows,
-    shape (rows, COUNT, SAMPLES); whole: which teeth lie wholly in the picture, shape (rows, COUNT).
+    shape (rows, bands, SAMPLES); whole: which teeth lie wholly in the picture, shape (rows, bands).
     """
 
     numbers: Floats
@@ -51,7 +51,7 @@ class Teeth:
 
 
 def teeth_of(comb: RowComb, bands: Bands, shift: Floats | float = 0.0) -> Teeth:
-    """What stands about the comb's teeth; shift: rows' own displacements in spacings, shape (rows, COUNT)."""
+    """What stands about the comb's teeth; shift: rows' own displacements in spacings, shape (rows, bands)."""
     numbers = comb.numbers.astype(float)
     place = comb.middle + (numbers[:, None] + shift) * comb.spacing
     value, inside = bands.sample(place[:, :, None] + _ACROSS * comb.spacing[:, None])
@@ -62,7 +62,7 @@ def teeth_of(comb: RowComb, bands: Bands, shift: Floats | float = 0.0) -> Teeth:
 
 
 def off_centre(teeth: Teeth, width: float) -> tuple[Floats, Floats]:
-    """How far the vegetation lies beside each tooth, in spacings, and with what weight; shape (rows, COUNT).
+    """How far the vegetation lies beside each tooth, in spacings, and with what weight; shape (rows, bands).
 
     width: standard deviation of the bell that weighs it. A tooth's weight saturates, so that lush plants
     count little more than ordinary ones.
@@ -111,7 +111,7 @@ def refine(comb: RowComb, bands: Bands, stiffness: Stiffness) -> RowComb:
 
 
 def _curves(degree: int) -> Floats:
-    """Legendre polynomials over the bands, shape (COUNT, degree + 1)."""
+    """Legendre polynomials over the bands, shape (bands, degree + 1)."""
     return np.asarray(legendre.legvander(2 * LEVEL, degree))
 
 

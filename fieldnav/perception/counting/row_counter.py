@@ -9,12 +9,12 @@ from dataclasses import dataclass
 import numpy as np
 
 from fieldnav.messages import Floats, Image, Side
-from fieldnav.perception.bands import Bands, bands_of
-from fieldnav.perception.levelled import level
-from fieldnav.perception.row_count import RowCount, count_rows
-from fieldnav.perception.row_map import map_of, rows_on
-from fieldnav.perception.settled_perspective import SettledPerspective
-from fieldnav.perception.sideways_shift import shift_between
+from fieldnav.perception.comb.bands import Bands, bands_of
+from fieldnav.perception.counting.levelled import level
+from fieldnav.perception.counting.row_count import RowCount, count_rows
+from fieldnav.perception.counting.row_map import map_of, rows_on
+from fieldnav.perception.counting.settled_perspective import SettledPerspective
+from fieldnav.perception.counting.sideways_shift import shift_between
 from fieldnav.perception.vegetation import vegetation_of
 from fieldnav.pinhole import Pinhole
 from fieldnav.settings.crop import CropProfile, Vegetation

@@ -3,22 +3,23 @@
 import numpy as np
 
 from fieldnav.messages import Floats, RowLine
-from fieldnav.perception.bands import LEVEL, Bands, bands_of
-from fieldnav.perception.comb_refinement import Stiffness, refine
-from fieldnav.perception.comb_rows import CombRows, rows_of
+from fieldnav.perception.comb.bands import LEVEL, Bands, bands_of
+from fieldnav.perception.comb.confidence import confidence_of
+from fieldnav.perception.comb.periodogram import SearchRange, candidates
+from fieldnav.perception.comb.refinement import Stiffness, refine
+from fieldnav.perception.comb.row_comb import RowComb
+from fieldnav.perception.comb.rows import CombRows, rows_of
 from fieldnav.perception.found import Found
-from fieldnav.perception.periodogram import SearchRange, candidates
-from fieldnav.perception.row_comb import RowComb
-from fieldnav.perception.row_confidence import confidence_of
 from fieldnav.perception.vegetation import Cover
 
 STEEP_VIEW = Stiffness(1, 1, middle=1.0, spacing=1.0, start=0.25, end=0.12, rounds=4, keep=0.1)
 """A camera that looks down sees a metre or two of the rows: they are straight there."""
 OBLIQUE_VIEW = (
     Stiffness(6, 2, middle=0.006, spacing=0.6, start=0.3, end=0.25, rounds=4),
-    Stiffness(6, 2, middle=0.002, spacing=0.2, start=0.2, end=0.12, rounds=5),
+    Stiffness(6, 2, middle=0.001, spacing=0.1, start=0.2, end=0.1, rounds=6),
 )
 """One that looks ahead sees bends and hills."""
+STEEP_SCATTER, OBLIQUE_SCATTER = 0.25, 1.0  # of a row's vegetation, in spacings; see `rows.rows_of`
 OBLIQUE = 0.8  # convergence from which on a view is one that looks ahead
 
 
@@ -31,7 +32,7 @@ def find_comb(cover: Cover, tried: SearchRange) -> tuple[RowComb, Bands] | None:
 
 def rows_in(comb: RowComb, bands: Bands, cover: Cover) -> Found:
     """Every row of a comb, whether plants bear it out or not: its confidence tells."""
-    rows = rows_of(comb, bands)
+    rows = rows_of(comb, bands, STEEP_SCATTER if convergence_of(comb) < OBLIQUE else OBLIQUE_SCATTER)
     curves = _curves_px(rows, cover)
     confidence = confidence_of(rows, comb, bands)
     lines = tuple(
@@ -48,11 +49,11 @@ def convergence_of(comb: RowComb) -> float:
 
 
 def _refined(comb: RowComb, bands: Bands) -> RowComb:
-    if convergence_of(comb) < OBLIQUE:
-        return refine(comb, bands, STEEP_VIEW)
-    for stiffness in OBLIQUE_VIEW:
-        comb = refine(comb, bands, stiffness)
-    return comb
+    """The comb fitted with the freedom that its view has, which may turn out another than it seemed."""
+    if convergence_of(comb) >= OBLIQUE:
+        for stiffness in OBLIQUE_VIEW:
+            comb = refine(comb, bands, stiffness)
+    return comb if convergence_of(comb) >= OBLIQUE else refine(comb, bands, STEEP_VIEW)
 
 
 def _curves_px(rows: CombRows, cover: Cover) -> Floats:

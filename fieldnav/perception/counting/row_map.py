@@ -7,8 +7,8 @@ from scipy.ndimage import gaussian_filter1d, maximum_filter1d
 from scipy.signal import find_peaks, peak_prominences
 
 from fieldnav.messages import Floats
-from fieldnav.perception.bands import COUNT
-from fieldnav.perception.levelled import PLACES, STEP, Levelled
+from fieldnav.perception.comb.bands import BAND_COUNT
+from fieldnav.perception.counting.levelled import PLACES, STEP, Levelled
 
 SMOOTH = 0.06  # of the row spacing: standard deviation of the blur across the rows, half a narrow canopy
 NEAREST = 0.4  # row spacings between two rows; sowing errs by less, and a spacing may be taken too large
@@ -27,8 +27,8 @@ class RowMap:
     def __init__(self, first: float, last: float) -> None:
         self._start = round((first - 1) / STEP) * STEP
         columns = round((last + 1 - self._start) / STEP) + 1
-        self._sum: Floats = np.zeros((COUNT, columns))
-        self._seen: Floats = np.zeros((COUNT, columns))
+        self._sum: Floats = np.zeros((BAND_COUNT, columns))
+        self._seen: Floats = np.zeros((BAND_COUNT, columns))
         self.places: Floats = np.asarray(self._start + STEP * np.arange(columns), float)
 
     def lay(self, picture: Levelled, place: float) -> None:
@@ -40,7 +40,7 @@ class RowMap:
 
     @property
     def strength(self) -> Floats:
-        """Shape (COUNT, n), at `places`; 0 where nothing was seen."""
+        """Shape (bands, n), at `places`; 0 where nothing was seen."""
         return np.asarray(self._sum / np.maximum(self._seen, 1))
 
 

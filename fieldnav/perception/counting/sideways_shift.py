@@ -11,7 +11,7 @@ import numpy as np
 from scipy import fft
 
 from fieldnav.messages import Floats
-from fieldnav.perception.levelled import PLACES, STEP, Levelled, Levels
+from fieldnav.perception.counting.levelled import PLACES, STEP, Levelled, Levels
 
 LEAST_OVERLAP = 0.3  # of the ground that one picture shows, which the other must show too
 SURPRISE = 0.3  # of likeness that a motion loses which is one row spacing off the expected one

@@ -5,13 +5,12 @@ from dataclasses import dataclass
 import numpy as np
 
 from fieldnav.messages import Floats
-from fieldnav.perception.bands import LEVEL, STRETCHES, Bands
-from fieldnav.perception.comb_refinement import EDGE, SAMPLES, off_centre, teeth_of
-from fieldnav.perception.row_comb import RowComb
+from fieldnav.perception.comb.bands import LEVEL, STRETCHES, Bands
+from fieldnav.perception.comb.refinement import EDGE, SAMPLES, off_centre, teeth_of
+from fieldnav.perception.comb.row_comb import RowComb
 
 OFFSET_PRIOR = 0.1  # standard deviation of a row from its place, in spacings; drills are not exact
 TURN_PRIOR = 0.1  # the same of half its lean across the height
-TOOTH = 0.5  # of one tooth's vegetation about its row; wide, since the bands of one plant all err alike
 WIDTHS = (0.15, 0.12, 0.1)  # standard deviation of the bell about a row in each round, in spacings
 LEAST_IN_VIEW = 0.55  # of the height: a row that shows less is not reported
 ALMOST_NOTHING = 1e-6
@@ -22,7 +21,7 @@ MIDDLE = slice(SAMPLES // 2 - SAMPLES // 8, SAMPLES // 2 + SAMPLES // 8 + 1)  # 
 class CombRows:
     """Rows from left to right.
 
-    place: where each lies in each band, in widths, shape (rows, COUNT); evenness: 1 where vegetation stands
+    place: where each lies in each band, in widths, shape (rows, bands); evenness: 1 where vegetation stands
     alike along all of a row, less where it stands in some stretches only, shape (rows,); stand: how much
     grows on a row beyond what grows between, against the comb's middle row, shape (rows,).
     """
@@ -35,21 +34,25 @@ class CombRows:
         return len(self.place)
 
 
-def rows_of(comb: RowComb, bands: Bands) -> CombRows:
-    """The rows of a comb that lie in the picture over most of its height."""
+def rows_of(comb: RowComb, bands: Bands, scatter: float) -> CombRows:
+    """The rows of a comb that lie in the picture over most of its height.
+
+    scatter: standard deviation of one tooth's vegetation about its row, in spacings; a wide one, since the
+    bands of one plant all err alike.
+    """
     number = comb.numbers.astype(float)
     lean = 2 * LEVEL
     shift = np.zeros((len(number), len(lean)))
     for width in WIDTHS:
         off, weight = off_centre(teeth_of(comb, bands, shift), width)
-        shift = _line_through(shift + off, weight / TOOTH**2, lean)
+        shift = _line_through(shift + off, weight / scatter**2, lean)
     place = comb.middle + (number[:, None] + shift) * comb.spacing
     kept = (np.abs(place) < 1 / 2).mean(axis=1) >= LEAST_IN_VIEW
     return CombRows(place[kept], *_standing(comb, bands, place[kept]))
 
 
 def _line_through(shift: Floats, weight: Floats, lean: Floats) -> Floats:
-    """Rows' displacements, shape (rows, COUNT), as straight lines; short of proof a row keeps its place."""
+    """Rows' displacements, shape (rows, bands), as straight lines; short of proof a row keeps its place."""
     a, b, c = (
         weight.sum(axis=1) + OFFSET_PRIOR**-2,
         weight @ lean,

@@ -20,7 +20,7 @@ ROUNDS = 3  # of reweighting
 
 
 @dataclass(frozen=True, slots=True)
-class Comb:
+class GroundRows:
     """Parallel rows on the ground, about a distance `about_m` ahead.
 
     Row i is y = offset_m + place_m[i] + (slope + turn[i]) (x - about_m). place_m: shape (rows,), where the
@@ -51,7 +51,7 @@ class Comb:
         )
 
 
-def members(comb: Comb, plants: GroundPlants, widest_m: float, wider: float = 1.0) -> Indices:
+def members(comb: GroundRows, plants: GroundPlants, widest_m: float, wider: float = 1.0) -> Indices:
     """The row in whose parallelogram each plant stands, -1 where none; shape (n,).
 
     wider: scales the parallelogram; half its width is never more than `widest_m`.
@@ -62,12 +62,12 @@ def members(comb: Comb, plants: GroundPlants, widest_m: float, wider: float = 1.
 
 
 def fit(
-    comb: Comb,
+    comb: GroundRows,
     plants: GroundPlants,
     row: Indices,
     scatter_m: float,
     row_offset_prior_m: float = ROW_OFFSET_PRIOR_M,
-) -> Comb:
+) -> GroundRows:
     """The comb that the plants show, starting from where it was.
 
     A regularised least squares with Huber's weights: the lane may move and turn freely, each row but little
@@ -91,7 +91,7 @@ def fit(
         trust = weight / scatter_m**2 * np.minimum(1.0, HUBER / np.maximum(off, HUBER))
         weighted = design.T * trust
         change = np.asarray(np.linalg.solve(weighted @ design + prior, weighted @ residual))
-    return Comb(
+    return GroundRows(
         comb.offset_m + float(change[0]),
         comb.slope + float(change[1]),
         comb.place_m + change[2 : 2 + rows],

@@ -10,9 +10,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from fieldnav.messages import Centres
-from fieldnav.perception.camera_pose import PoseSighting, sight
 from fieldnav.perception.canopy import canopy_plane
-from fieldnav.perception.pose_estimate import PoseEstimate
+from fieldnav.perception.pose.camera_pose import PoseSighting, sight
+from fieldnav.perception.pose.pose_estimate import PoseEstimate
 from fieldnav.pinhole import Pinhole
 from fieldnav.settings.crop import CropProfile
 from fieldnav.settings.robot import CameraLimits

@@ -14,8 +14,8 @@ from typing import Self
 import numpy as np
 
 from fieldnav.messages import Floats
-from fieldnav.perception.camera_pose import PoseSighting
 from fieldnav.perception.canopy import VISIBLE_HEIGHT, canopy_plane
+from fieldnav.perception.pose.camera_pose import PoseSighting
 from fieldnav.pinhole import Pinhole
 from fieldnav.settings.crop import CropProfile
 from fieldnav.settings.robot import CameraLimits

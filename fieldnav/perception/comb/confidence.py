@@ -8,9 +8,9 @@ The benchmark of detection draws the reliability of the result.
 import numpy as np
 
 from fieldnav.messages import Floats
-from fieldnav.perception.bands import Bands
-from fieldnav.perception.comb_rows import CombRows
-from fieldnav.perception.row_comb import RowComb
+from fieldnav.perception.comb.bands import Bands
+from fieldnav.perception.comb.row_comb import RowComb
+from fieldnav.perception.comb.rows import CombRows
 
 INTERCEPT = -10.4
 RESPONSE = 18.25  # of the comb's correlation with the vegetation

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fieldnav.messages import Floats
-from fieldnav.perception.bands import COUNT, LEVEL, STRETCHES, Bands
+from fieldnav.perception.comb.bands import BAND_COUNT, LEVEL, STRETCHES, Bands
 
 HARMONICS = np.arange(1, 7)
 TOOTH = 0.12  # of the spacing: standard deviation of the template's tooth
@@ -29,7 +29,7 @@ ALMOST_NOTHING = 1e-9
 
 @dataclass(frozen=True)
 class RowComb:
-    """The rows in each band, in picture widths: row k lies at middle + k spacing; arrays of shape (COUNT,).
+    """The rows in each band, in picture widths: row k lies at middle + k spacing; arrays of shape (bands,).
 
     usable: the bands below the horizon whose rows can be told apart.
     """
@@ -45,7 +45,7 @@ class RowComb:
         number = np.arange(-reach, reach + 1)
         place = self.middle + number[:, None] * self.spacing
         seen = ((np.abs(place) < 1 / 2) & self.usable).sum(axis=1)
-        return np.asarray(number[seen >= LEAST_SEEN * COUNT])
+        return np.asarray(number[seen >= LEAST_SEEN * BAND_COUNT])
 
     def response(self, bands: Bands) -> float:
         """How well the vegetation follows the comb: its correlation with a row of teeth, -1 to 1."""
@@ -67,18 +67,18 @@ class RowComb:
         return RowComb(self.middle + shift * self.spacing, self.spacing, self.usable)
 
     def _responses(self, bands: Bands) -> Floats:
-        """Each band's response, shape (COUNT,)."""
+        """Each band's response, shape (bands,)."""
         return np.asarray((TEMPLATE * self._harmonics(bands).real).sum(axis=1))
 
     def _harmonics(self, bands: Bands) -> NDArray[np.complex128]:
-        """The bands' spectra at the comb's harmonics, in the comb's phase; shape (COUNT, harmonics)."""
+        """The bands' spectra at the comb's harmonics, in the comb's phase; shape (bands, harmonics)."""
         cycles = HARMONICS / self.spacing[:, None]
         phase = np.exp(2j * np.pi * HARMONICS * (self.middle / self.spacing)[:, None])
         return np.asarray(bands.at(cycles) * phase * self.usable[:, None])
 
 
 def growth(convergence: float) -> Floats:
-    """How wide the ground is drawn in each band against mid-height; shape (COUNT,).
+    """How wide the ground is drawn in each band against mid-height; shape (bands,).
 
     convergence: height of the picture over the distance from its mid-height up to the horizon.
     """

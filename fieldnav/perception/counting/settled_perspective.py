@@ -6,10 +6,10 @@ import numpy as np
 
 from fieldnav.messages import Floats
 from fieldnav.perception.canopy import canopy_plane
-from fieldnav.perception.comb_finder import find_comb
-from fieldnav.perception.levelled import Perspective, perspective_of
-from fieldnav.perception.periodogram import SearchRange
-from fieldnav.perception.search_range import any_camera, range_of
+from fieldnav.perception.comb.finder import find_comb
+from fieldnav.perception.comb.periodogram import SearchRange
+from fieldnav.perception.comb.search_range import any_camera, range_of
+from fieldnav.perception.counting.levelled import Perspective, perspective_of
 from fieldnav.perception.vegetation import Cover
 from fieldnav.pinhole import Pinhole
 from fieldnav.settings.crop import CropProfile
@@ -59,7 +59,7 @@ def _convergence(camera: Pinhole) -> float:
 
 def _tried(crop: CropProfile | None, camera: Pinhole | None, convergence: float | None) -> SearchRange:
     if camera is None or convergence is None:
-        return any_camera(crop)
+        return any_camera(crop.rows.spacing_m if crop else None)
     if crop is None:
         return replace(any_camera(None), convergence=np.array([convergence]))
-    return range_of(canopy_plane(camera, crop), crop.rows.spacing_m, surely=True)
+    return range_of(canopy_plane(camera, crop), crop.rows.spacing_m, pose_known=True)

@@ -10,8 +10,8 @@ from functools import cached_property
 import numpy as np
 
 from fieldnav.messages import Floats
-from fieldnav.perception.bands import Bands, Complexes
-from fieldnav.perception.row_comb import LEAST_GROWTH, RowComb, growth, straight
+from fieldnav.perception.comb.bands import Bands, Complexes
+from fieldnav.perception.comb.row_comb import LEAST_GROWTH, RowComb, growth, straight
 
 FEWEST_ROWS_ACROSS = 1.0
 
@@ -33,7 +33,7 @@ class SearchRange:
 
     @cached_property
     def turns(self) -> tuple[tuple[Complexes, Complexes], ...]:
-        """For each convergence the phases that undo leans, (f, b, COUNT), and bends, (f, c, COUNT)."""
+        """For each convergence the phases that undo leans, (f, b, bands), and bends, (f, c, bands)."""
         away = [1 / np.maximum(growth(float(each)), LEAST_GROWTH) - 1 for each in self.convergence]
         return tuple(
             (
@@ -73,7 +73,7 @@ def _energy(bands: Bands, tried: SearchRange, index: int) -> Floats:
 
 
 def _turns(rows_across: Floats, place: Floats) -> Complexes:
-    """Phase factors that undo a displacement of so many widths at mid-height; shape (f, n, COUNT)."""
+    """Phase factors that undo a displacement of so many widths at mid-height; shape (f, n, bands)."""
     return np.asarray(np.exp((2j * np.pi) * rows_across[:, None, None] * place).astype(np.complex64))
 
 

@@ -9,9 +9,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fieldnav.messages import Floats
-from fieldnav.perception.bands import COLUMNS, LEVEL, Bands
-from fieldnav.perception.comb_finder import convergence_of
-from fieldnav.perception.row_comb import RowComb, growth
+from fieldnav.perception.comb.bands import COLUMNS, LEVEL, Bands
+from fieldnav.perception.comb.finder import convergence_of
+from fieldnav.perception.comb.row_comb import RowComb, growth
 
 STEP = 1 / COLUMNS  # between the places of a levelled picture, as fine as the bands are
 REACH = 0.65  # to either side: what the upper edge of a steep view still shows
@@ -33,7 +33,7 @@ class Perspective:
 
 @dataclass(frozen=True, slots=True)
 class Levelled:
-    """strength: shape (COUNT, n), 0 to 1, at PLACES; seen: the same, 1 where the picture has the place."""
+    """strength: shape (bands, n), 0 to 1, at PLACES; seen: the same, 1 where the picture has the place."""
 
     strength: Levels
     seen: Levels

@@ -6,9 +6,8 @@ from math import cos, radians, tan
 import numpy as np
 
 from fieldnav.messages import Floats
-from fieldnav.perception.periodogram import FEWEST_ROWS_ACROSS, SearchRange
+from fieldnav.perception.comb.periodogram import FEWEST_ROWS_ACROSS, SearchRange
 from fieldnav.pinhole import Pinhole
-from fieldnav.settings.crop import CropProfile
 
 MOST_ROWS_ACROSS = 24.0
 STEEPEST = tan(radians(14))  # of the rows against the camera's axis
@@ -34,28 +33,31 @@ CANDIDATES = 6
 
 
 @lru_cache(maxsize=8)
-def range_of(plane: Pinhole, spacing_m: float, surely: bool) -> SearchRange:
+def range_of(plane: Pinhole, spacing_m: float, pose_known: bool) -> SearchRange:
     """The range for a camera over the canopy's plane; kept for the frames that follow.
 
-    surely: whether the camera's pose is that of its file but for calibration and shaking; otherwise it may be
-    quite another one.
+    pose_known: whether the camera's pose is that of its file but for calibration and shaking; otherwise it
+    may be quite another one.
     """
-    tilt, scale = (TILT_ERROR_RAD, 1 + SCALE_ERROR) if surely else (UNKNOWN_TILT_RAD, UNKNOWN_SCALE)
+    tilt, scale = (TILT_ERROR_RAD, 1 + SCALE_ERROR) if pose_known else (UNKNOWN_TILT_RAD, UNKNOWN_SCALE)
     across = plane.width_px / float(plane.pixels_per_metre(plane.centre_y_px)) / spacing_m
     most = STEEPEST * plane.focal_px / (plane.width_px * cos(plane.tilt_rad))
     rows_across = _rows_across(across / scale, across * scale)
     leans = _steps(-most, most, IN_STEP / float(rows_across.max()) / NEAREST)
-    tilts = plane.tilt_rad + tilt * np.linspace(-1, 1, FEWEST_STEPS if surely else 2 * FEWEST_STEPS + 1)
+    tilts = plane.tilt_rad + tilt * np.linspace(-1, 1, FEWEST_STEPS if pose_known else 2 * FEWEST_STEPS + 1)
     convergence = plane.height_px / (plane.focal_px * np.tan(tilts))
-    followed, refined = (2, 1) if surely else (CANDIDATES, CANDIDATES)
-    return SearchRange(np.abs(convergence), rows_across, leans, np.zeros(1), followed, not surely, refined)
+    followed, refined = (2, 1) if pose_known else (CANDIDATES, CANDIDATES)
+    return SearchRange(
+        np.abs(convergence), rows_across, leans, np.zeros(1), followed, not pose_known, refined
+    )
 
 
-def any_camera(crop: CropProfile | None) -> SearchRange:
-    """The range for a camera that nothing is known of, and a crop that may not be known either."""
+@lru_cache(maxsize=2)
+def any_camera(spacing_m: float | None) -> SearchRange:
+    """The range for a camera that nothing is known of, and rows whose spacing may not be known either."""
     fewest, most = FEWEST_ROWS_ACROSS, MOST_ROWS_ACROSS
-    if crop is not None:
-        fewest, most = (height / (VIEW * crop.rows.spacing_m) for height in (LOWEST_M, HIGHEST_M))
+    if spacing_m is not None:
+        fewest, most = (height / (VIEW * spacing_m) for height in (LOWEST_M, HIGHEST_M))
     rows_across = _rows_across(fewest, most)
     return SearchRange(
         np.concatenate([STEEP, OBLIQUE]), rows_across, VANISHING, BENDS, CANDIDATES, True, CANDIDATES

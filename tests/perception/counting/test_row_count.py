@@ -9,8 +9,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from fieldnav.messages import Image, Side
-from fieldnav.perception.row_count import RowCount, count_rows
-from fieldnav.perception.row_counter import RowCounter
+from fieldnav.perception.counting.row_count import RowCount, count_rows
+from fieldnav.perception.counting.row_counter import RowCounter
 
 MARGIN = 0.005
 ROWS = np.array([0.1, 0.35, 0.6, 1.2])

@@ -1,0 +1,1 @@
+"""The comb finder: parallel rows searched for together, in whatever perspective."""

@@ -1,0 +1,1 @@
+"""Counting the rows that pass while a camera moves sideways."""

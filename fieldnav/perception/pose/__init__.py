@@ -1,0 +1,1 @@
+"""What the crop and the pictures tell of the cameras themselves."""
