@@ -7,7 +7,7 @@ import pytest
 
 from fieldnav.perception.comb.bands import Bands
 from fieldnav.perception.comb.confidence import confidence_of
-from fieldnav.perception.comb.row_comb import RowComb
+from fieldnav.perception.comb.row_comb import RowComb, straight
 from fieldnav.perception.comb.rows import rows_of
 
 SCATTER = 0.25
