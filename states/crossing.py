@@ -3,20 +3,14 @@
 from math import nan
 
 from fieldnav.messages import CameraName, Direction, Evidence, Frame, Motion
-from fieldnav.perception.crossing import (
-    Crossing,
-    accept,
-    candidate_row,
-    follow,
-    outermost_row,
-    rows_in_image,
-)
+from fieldnav.perception.crossing import accept, follow
+from fieldnav.perception.passing_rows import Crossing, candidate_row, outermost_row, rows_in_image
 from fieldnav.perception.plants import find_plants
 from fieldnav.perception.recognition import describe, distance
 from states.behaviour import Observation, Sight, Step, Task
 from states.memory import LaneMemory, SwitchMemory
 from states.names import Event
-from states.sideways import sideways, too_far, way
+from states.sideways import sideways, too_far, turned_rad, way
 
 REFRESH_FRAMES = 3
 OVERRULING_FRAMES = 15
@@ -50,7 +44,8 @@ class CrossingRows:
         crop, camera = self._task.crop, self._task.cameras[frame.camera]
         centres = find_plants(frame.image, crop.vegetation, camera)
         assert switch.crossing, "Sampling begins the crossing"
-        rows = follow(switch.crossing, centres, crop, camera)
+        turned = turned_rad(switch, frame.stamp_s, self._step.motion)
+        rows = follow(switch.crossing, centres, crop, camera, turned)
         rows, evidence = self._recognise(frame, rows, switch)
         switch.crossing = rows
         wanted = self._lane.rows or crop.rows.per_lane

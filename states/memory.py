@@ -3,7 +3,7 @@
 from collections import Counter
 from dataclasses import dataclass, field
 
-from fieldnav.perception.crossing import Crossing
+from fieldnav.perception.passing_rows import Crossing
 from fieldnav.perception.recognition import Descriptors
 from fieldnav.perception.tracking import TrackedRows
 
@@ -18,6 +18,8 @@ class SwitchMemory:
     started_m: float
     reference: Descriptors | None = None
     crossing: Crossing | None = None
+    seen_s: float | None = None
+    """Stamp of the last frame in which the rows were followed."""
 
 
 @dataclass(slots=True)

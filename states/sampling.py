@@ -1,7 +1,7 @@
 """Sidestep.Sampling: at standstill, take the features of the outermost row (paper III-C)."""
 
 from fieldnav.messages import CameraName, Direction, Evidence, Frame
-from fieldnav.perception.crossing import begin
+from fieldnav.perception.passing_rows import begin
 from fieldnav.perception.perceive import View, find
 from fieldnav.perception.recognition import describe
 from states.agreement import Agreement

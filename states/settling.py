@@ -3,12 +3,13 @@
 from math import degrees, radians
 
 from fieldnav.messages import CameraName, Direction, Evidence, Frame, Motion
-from fieldnav.perception.crossing import follow, new_lane_m, rows_in_image
+from fieldnav.perception.crossing import follow, new_lane_m
+from fieldnav.perception.passing_rows import rows_in_image
 from fieldnav.perception.plants import find_plants
 from states.behaviour import Observation, Sight, Step, Task
 from states.memory import LaneMemory, SwitchMemory
 from states.names import Event
-from states.sideways import sideways, too_far, way
+from states.sideways import sideways, too_far, turned_rad, way
 
 OFFSET_GAIN_PER_S = 0.8
 """What is left is halved in under a second. Our choice."""
@@ -51,7 +52,8 @@ class Settling:
         crop, camera = self._task.crop, self._task.cameras[frame.camera]
         centres = find_plants(frame.image, crop.vegetation, camera)
         assert switch.crossing, "Sampling begins the crossing"
-        rows = switch.crossing = follow(switch.crossing, centres, crop, camera)
+        turned = turned_rad(switch, frame.stamp_s, self._step.motion)
+        rows = switch.crossing = follow(switch.crossing, centres, crop, camera, turned)
         offset_m = new_lane_m(rows, crop)
         aligned_rad = radians(crop.switching.aligned_deg)
         good = abs(offset_m) < crop.switching.centred_m and abs(rows.slope) < aligned_rad

@@ -16,6 +16,12 @@ def sideways(task: Task, speed_mps: float, slope: float = 0.0, hold: bool = Fals
     return Motion(Twist(0.0, task.side.sign * speed_mps, turn_rps), Steering.OMNIDIRECTIONAL, hold)
 
 
+def turned_rad(switch: SwitchMemory, stamp_s: float, motion: Motion) -> float:
+    """By how much the robot was told to turn since the last frame; takes note of this one."""
+    last_s, switch.seen_s = switch.seen_s, stamp_s
+    return 0.0 if last_s is None else motion.twist.yaw_rate_rps * (stamp_s - last_s)
+
+
 def way(task: Task, switch: SwitchMemory, seen: Observation) -> Evidence:
     """How far this sidestep has gone, against how far it may go."""
     limit_m = task.crop.switching.longest_sidestep_m

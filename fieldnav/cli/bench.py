@@ -1,7 +1,5 @@
 """`fieldnav bench`: what fieldnav achieves, measured now, beside its goals and the best values known."""
 
-import sys
-import tempfile
 from collections.abc import Callable
 from pathlib import Path
 from typing import Annotated
@@ -11,7 +9,10 @@ import typer
 from fieldnav.cli.bench_report import document, markdown, report_table
 from fieldnav.cli.checkout import commit, machine
 from fieldnav.cli.console import out, print_json
-from fieldnav.errors import OutputError, SettingsError
+from fieldnav.cli.output_folder import make_writable
+from fieldnav.cli.part_progress import watched
+from fieldnav.cli.picture_limit import limit_pictures
+from fieldnav.errors import SettingsError
 from fieldnav.evaluation.benchmark import Plan, Progress, Report
 
 bench = typer.Typer(
@@ -55,8 +56,10 @@ def detection(
     the reliability of the confidence is judged over all rows.
     Photographs that are absent are left out, and the table says so.
     """
-    plan = Plan(_folder(data), quick, plots=None if plot is None else _writable(plot))
-    _use_threads(threads)
+    plan = Plan(_folder(data), quick, plots=plot)
+    if plot is not None:
+        make_writable(plot, f"--plot {plot}:")
+    _ready_opencv(threads)
     from fieldnav.evaluation.detection import detection as measure  # noqa: PLC0415 - loads OpenCV
 
     _report("detection", measure, plan, as_json, as_markdown)
@@ -75,7 +78,7 @@ def speed(
     Photographs that are absent are left out, and the table says so.
     """
     plan = Plan(_folder(data), quick)
-    _use_threads(threads)
+    _ready_opencv(threads)
     _report("speed", _speed, plan, as_json, as_markdown)
 
 
@@ -98,22 +101,11 @@ def _folder(data: Path | None) -> Path | None:
     return data
 
 
-def _writable(folder: Path) -> Path:
-    """The folder, made if it lacks, before any time is spent on measuring. Raises OutputError."""
-    try:
-        folder.mkdir(parents=True, exist_ok=True)
-        with tempfile.TemporaryFile(dir=folder):
-            pass
-    except OSError as error:
-        raise OutputError(
-            f"--plot {folder}: cannot be written here: {error.strerror}; allowed is a folder you can write"
-        ) from error
-    return folder
-
-
-def _use_threads(threads: int | None) -> None:
+def _ready_opencv(threads: int | None) -> None:
+    limit_pictures()  # a photograph's head may claim any size, which is allocated at once
     import cv2  # noqa: PLC0415 - other commands need not wait for OpenCV
 
+    cv2.utils.logging.setLogLevel(cv2.utils.logging.LOG_LEVEL_SILENT)  # an error is one line, and fieldnav's
     if threads is not None:
         cv2.setNumThreads(threads)
 
@@ -135,9 +127,5 @@ def _report(
 
 def _measured(measure: Callable[[Plan, Progress], Report], plan: Plan) -> Report:
     """Measure with a progress bar on the terminal; quiet where there is none."""
-    if not sys.stderr.isatty():
-        return measure(plan, lambda part, done, steps: None)
-    from fieldnav.cli.bench_progress import PartBars  # noqa: PLC0415 - only for a person who watches
-
-    with PartBars() as bars:
-        return measure(plan, bars.tell)
+    with watched() as tell:
+        return measure(plan, tell)

@@ -1,6 +1,6 @@
 """A benchmark's figures, as a table for people and as one JSON object for programs."""
 
-from dataclasses import asdict
+from dataclasses import asdict, replace
 from math import floor, isfinite, log10
 from typing import Any
 
@@ -15,6 +15,8 @@ FIGURES = ("value", "goal", "best known")
 MET = {True: Text("yes", style="green"), False: Text("no", style="red"), None: Text("")}
 DIGITS, MOST_DECIMALS = 3, 4
 """Of a figure that a person reads: significant digits, and decimals at most."""
+FINEST = 6
+"""Decimals at most of a figure that misses its goal by little."""
 
 
 def report_table(title: str, report: Report) -> Table:
@@ -37,9 +39,10 @@ def _absence(part: LeftOut) -> tuple[str | Text, ...]:
 
 
 def _line(figure: Figure) -> tuple[str | Text, ...]:
-    value = _number(figure.value, _decimals(figure.value))
+    decimals = _decimals_beside_goal(figure)
+    value = _number(figure.value, decimals)
     if figure.std is not None:
-        value = f"{value} +- {_number(figure.std, _decimals(figure.value))}"
+        value = f"{value} +- {_number(figure.std, decimals)}"
     sign = ">=" if figure.better is Better.HIGHER else "<="
     goal = "" if figure.goal is None else f"{sign} {figure.goal:g}"
     known = "" if figure.best_known is None else _number(figure.best_known, _decimals(figure.best_known))
@@ -54,6 +57,18 @@ def _decimals(value: float) -> int:
     """Decimals that show the leading digits of a value; its deviation is shown with as many."""
     size = floor(log10(abs(value))) if isfinite(value) and value else 0
     return min(MOST_DECIMALS, max(0, DIGITS - 1 - size))
+
+
+def _decimals_beside_goal(figure: Figure) -> int:
+    """So many that a value which misses its goal by little does not read as if it had met it."""
+    decimals = _decimals(figure.value)
+    if figure.met is not False or not isfinite(figure.value):
+        return decimals
+    return next((each for each in range(decimals, FINEST) if not _reads_as_met(figure, each)), FINEST)
+
+
+def _reads_as_met(figure: Figure, decimals: int) -> bool:
+    return bool(replace(figure, value=round(figure.value, decimals)).met)
 
 
 def document(name: str, commit: str, report: Report) -> dict[str, Any]:

@@ -1,24 +1,25 @@
 """`fieldnav check`: what can be looked at before the robot drives, a line a check."""
 
-import os
 import time
 from collections.abc import Iterator
 from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from fieldnav.cli.console import out, print_json
+from fieldnav.cli.console import FAILED, out, print_json
 from fieldnav.cli.findings import Finding, Verdict
+from fieldnav.cli.picture_limit import limit_pictures
 from fieldnav.errors import SettingsError
 from fieldnav.settings.loading import check_fit, load_crop, load_robot
-from fieldnav.settings.robot import LARGEST_SIDE_PX
 
 if TYPE_CHECKING:
     from fieldnav.settings.crop import CropProfile
     from fieldnav.settings.robot import Robot
 
 NOT_WELL = 1
-"""Exit status when a check failed."""
+"""Exit status when a check failed, but none of the files."""
+ROBOT_FILE, CROP_PROFILE = "robot file", "crop profile"
+"""The checks of what was named on the command line; when one of them fails, the input is wrong."""
 NOT_CHECKED = ("bus", "wheel modules")
 
 
@@ -32,13 +33,15 @@ def check(
     """Look at what a mission needs before it drives: files, cameras, and where they look. Nothing moves.
 
     With --crop the robot stands over rows: their spacing tells each camera's tilt, height and yaw.
+
+    Exit status: 0 when no check failed, 1 when one did, 2 when the robot file or the crop profile is wrong.
     """
     found = []
     for finding in _findings(robot, crop):
         found.append(finding)
         if not as_json:
             out().print(finding.line(), soft_wrap=True)
-    failed = any(finding.verdict is Verdict.FAIL for finding in found)
+    failed = {finding.check for finding in found if finding.verdict is Verdict.FAIL}
     if as_json:
         print_json(
             {
@@ -49,6 +52,8 @@ def check(
         )
     else:
         print(f"not checked: {', '.join(NOT_CHECKED)}")
+    if failed & {ROBOT_FILE, CROP_PROFILE}:
+        return FAILED
     return NOT_WELL if failed else 0
 
 
@@ -58,17 +63,17 @@ def _findings(robot_name: str, crop_name: str | None) -> Iterator[Finding]:
     try:
         robot = load_robot(robot_name)
     except SettingsError as error:
-        yield Finding("robot file", Verdict.FAIL, str(error))
+        yield Finding(ROBOT_FILE, Verdict.FAIL, str(error))
         return
-    yield Finding("robot file", Verdict.OK, robot.name)
+    yield Finding(ROBOT_FILE, Verdict.OK, robot.name)
     if crop_name is not None:
         try:
             crop = load_crop(crop_name)
         except SettingsError as error:
-            yield Finding("crop profile", Verdict.FAIL, str(error))
+            yield Finding(CROP_PROFILE, Verdict.FAIL, str(error))
     if crop is not None:
         rows = f"{crop.rows.per_lane} rows, {crop.rows.spacing_m:g} m apart"
-        yield Finding("crop profile", Verdict.OK, f"{crop.name}: {rows}")
+        yield Finding(CROP_PROFILE, Verdict.OK, f"{crop.name}: {rows}")
         yield _fit(crop, robot)
     yield from _cameras(robot, crop)
 
@@ -82,13 +87,14 @@ def _fit(crop: "CropProfile", robot: "Robot") -> Finding:
 
 
 def _cameras(robot: "Robot", crop: "CropProfile | None") -> Iterator[Finding]:
-    # OpenCV reads this when it is loaded: a picture's head may claim any size, which is allocated at once.
-    os.environ.setdefault("OPENCV_IO_MAX_IMAGE_PIXELS", str(LARGEST_SIDE_PX**2))
+    limit_pictures()  # a picture's head may claim any size, which is allocated at once
     # Here, because other commands need not wait for OpenCV.
     from fieldnav.cli.camera_checks import Watch, compare, look  # noqa: PLC0415
+    from fieldnav.cli.frames import quiet_videos  # noqa: PLC0415
     from fieldnav.cli.pose_checks import pose_findings  # noqa: PLC0415
     from fieldnav.messages import CameraName  # noqa: PLC0415
 
+    quiet_videos()
     frames = {}
     watch = Watch(time.monotonic, time.sleep)
     for name in CameraName:

@@ -1,16 +1,16 @@
 """`fieldnav count`: the rows that pass sideways in a folder of frames or a video."""
 
 import json
-import os
 import sys
-from collections.abc import Callable
 from typing import TYPE_CHECKING, Annotated
 
 import typer
 
 from fieldnav.cli.console import out, table
+from fieldnav.cli.part_progress import watched
+from fieldnav.cli.picture_limit import limit_pictures
+from fieldnav.evaluation.benchmark import Progress
 from fieldnav.messages import Side
-from fieldnav.settings.robot import LARGEST_SIDE_PX
 
 if TYPE_CHECKING:
     from fieldnav.cli.frames import Frames
@@ -20,6 +20,8 @@ if TYPE_CHECKING:
     from fieldnav.settings.robot import CameraSettings
 
 PART = "frames"
+MOST_MISSING = 0.05
+"""Share of a video's frames that may be missing unsaid: its head need not be exact."""
 SAID_AT_MOST = 10
 """Frames that are named when they could not be placed."""
 
@@ -53,71 +55,75 @@ def count(
 
     Rows are told by the plants that the camera sees: one that has none in view does not count.
     """
-    # OpenCV reads this when it is loaded: a picture's head may claim any size, which is allocated at once.
-    os.environ.setdefault("OPENCV_IO_MAX_IMAGE_PIXELS", str(LARGEST_SIDE_PX**2))
+    limit_pictures()  # a picture's head may claim any size, which is allocated at once
     # Here, because other commands need not wait for OpenCV.
     from fieldnav.cli.frames import frames_of  # noqa: PLC0415
     from fieldnav.settings.loading import load_crop, load_robot  # noqa: PLC0415
 
     profile = None if crop is None else load_crop(crop)
     camera = None if robot is None else load_robot(robot).cameras.front
-    counter = _counted(frames_of(frames), profile, camera)
+    source = frames_of(frames)
+    counter, seen = _counted(source, profile, camera)
     result = counter.result(direction)
     if as_json:
         print(json.dumps({"rows_crossed": result.rows_crossed, "frames": list(result.frames)}))
     else:
-        _print_table(frames, result)
-    _warn(frames, counter.unplaced)
+        _print_table(frames, result, seen)
+    if seen < (1 - MOST_MISSING) * source.expected:
+        _warn(f"{frames}: gave {seen} of its {source.expected} frames: it is cut or damaged")
+    if counter.unplaced:
+        known = "show no ground known from the frames before, so taken as on the way"
+        _warn(f"{frames}: {known}: {_named(counter.unplaced)}")
 
 
-def _counted(frames: "Frames", crop: "CropProfile | None", camera: "CameraSettings | None") -> "RowCounter":
-    """All frames taken in, with a progress bar on the terminal; quiet where there is none."""
-    if not sys.stderr.isatty():
-        return _taken_in(frames, crop, camera, lambda part, done, steps: None)
-    from fieldnav.cli.bench_progress import PartBars  # noqa: PLC0415 - only for a person who watches
-
-    with PartBars() as bars:
-        return _taken_in(frames, crop, camera, bars.tell)
+def _counted(
+    frames: "Frames", crop: "CropProfile | None", camera: "CameraSettings | None"
+) -> "tuple[RowCounter, int]":
+    """All frames taken in, and how many; with a progress bar on the terminal, quiet where there is none."""
+    with watched() as tell:
+        return _taken_in(frames, crop, camera, tell)
 
 
 def _taken_in(
     frames: "Frames",
     crop: "CropProfile | None",
     camera: "CameraSettings | None",
-    tell: Callable[[str, int, int], None],
-) -> "RowCounter":
+    tell: Progress,
+) -> "tuple[RowCounter, int]":
     from fieldnav.perception.counting.row_counter import RowCounter  # noqa: PLC0415 - loads OpenCV
     from fieldnav.settings.loading import revised  # noqa: PLC0415 - the same
 
     counter: RowCounter | None = None
-    for number, (name, image) in enumerate(frames.images):
+    seen = 0
+    for seen, (name, image) in enumerate(frames.images, start=1):
         if counter is None:
             height, width = image.shape[:2]
             size = {"width_px": width, "height_px": height}
             pinhole = None if camera is None else revised(camera, size, name).pinhole()
             counter = RowCounter(crop, pinhole)
         counter.add(image)
-        tell(PART, number + 1, max(frames.expected, number + 1))
+        tell(PART, seen, max(frames.expected, seen))
     assert counter is not None, "a source without frames is refused where it is read"
-    return counter
+    return counter, seen
 
 
-def _print_table(source: str, result: "RowCount") -> None:
+def _print_table(source: str, result: "RowCount", seen: int) -> None:
     moved = f"{result.direction.value} counts up"
     net = result.rows_crossed
-    print(f"{source}: {net} row{'' if abs(net) == 1 else 's'} crossed, {moved}")
+    rows, frames = "row" if abs(net) == 1 else "rows", "frame" if seen == 1 else "frames"
+    print(f"{source}: {net} {rows} crossed in {seen} {frames}, {moved}")
     columns = ("frame", "row", "robot moves", "count")
-    rows, running = [], 0
+    lines, running = [], 0
     for passage in result.passages:
         running += result.step(passage)
-        rows.append((str(passage.frame), str(passage.row + 1), passage.moved.value, f"{running:+d}"))
-    if rows:
-        out().print(table("", columns, rows, right=("frame", "row", "count")))
+        lines.append((str(passage.frame), str(passage.row + 1), passage.moved.value, f"{running:+d}"))
+    if lines:
+        out().print(table("", columns, lines, right=("frame", "row", "count")))
 
 
-def _warn(source: str, unplaced: tuple[int, ...]) -> None:
-    if not unplaced:
-        return
-    named = ", ".join(map(str, unplaced[:SAID_AT_MOST])) + (", ..." if len(unplaced) > SAID_AT_MOST else "")
-    line = f"warning: {source}: show no ground known from the frames before, so taken as on the way: {named}"
-    print(line, file=sys.stderr)
+def _named(frames: tuple[int, ...]) -> str:
+    return ", ".join(map(str, frames[:SAID_AT_MOST])) + (", ..." if len(frames) > SAID_AT_MOST else "")
+
+
+def _warn(line: str) -> None:
+    print(f"warning: {line}", file=sys.stderr)

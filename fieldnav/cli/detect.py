@@ -1,19 +1,18 @@
 """`fieldnav detect`: the crop rows of pictures, for a person, a program, or to look at."""
 
 import json
-import os
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from fieldnav.settings.robot import LARGEST_SIDE_PX
+from fieldnav.cli.picture_limit import limit_pictures
 
 if TYPE_CHECKING:
     from fieldnav.cli.detection import Detection
 
 USUAL_CROP = "sugar-beet"
-"""Taken with a robot when no crop is named: its camera looks for rows of some spacing."""
+"""Taken with a robot when no crop is named: its camera looks for rows of one spacing."""
 
 
 def detect(
@@ -46,8 +45,7 @@ def detect(
     Without --robot the camera is estimated: its tilt from how the rows run together,
     and with --crop also its height, from how far apart they are.
     """
-    # OpenCV reads this when it is loaded: a picture's head may claim any size, which is allocated at once.
-    os.environ.setdefault("OPENCV_IO_MAX_IMAGE_PIXELS", str(LARGEST_SIDE_PX**2))
+    limit_pictures()  # a picture's head may claim any size, which is allocated at once
     # Here, because other commands need not wait for OpenCV.
     from fieldnav.cli import detection, detection_report, pictures  # noqa: PLC0415
     from fieldnav.settings.loading import load_crop, load_robot  # noqa: PLC0415
@@ -56,7 +54,7 @@ def detect(
     known = detection.Known(
         None if named is None else load_crop(named), None if robot is None else load_robot(robot)
     )
-    for path in images:
+    for path in dict.fromkeys(images):
         detection.check(path, known)
     overlays = pictures.overlay_paths(images, overlay) if overlay else {}
     detection.detect_rows(images[0], known)  # the first look of a process takes longer than all others
@@ -66,6 +64,7 @@ def detect(
             print(json.dumps(detection_report.document(found), ensure_ascii=False), flush=True)
         else:
             detection_report.print_table(found)
+        detection_report.warn(found)
         if path in overlays:
             _draw(found, overlays[path])
             if not as_json:

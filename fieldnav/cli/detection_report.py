@@ -1,5 +1,6 @@
 """What was found in a picture, in words: an object for a program, a table for a person."""
 
+import sys
 from math import degrees
 from typing import Any
 
@@ -54,9 +55,17 @@ def print_table(found: Detection) -> None:
     size = f"{found.width_px}x{found.height_px}"
     print(f"{found.path}: {counted(found)}, {size}, {found.milliseconds:.{MILLISECOND_DIGITS}f} ms")
     print(camera_line(found))
+    if found.known.robot and found.known.crop:
+        print(f"looked for rows of {found.known.crop.name}, {found.known.crop.rows.spacing_m:g} m apart")
     if rows:
         out().print(table("", columns, rows, right=columns))
     print()
+
+
+def warn(found: Detection) -> None:
+    """Say on standard error when a picture cannot show what is looked for."""
+    if not np.ptp(found.image, axis=-1).any():
+        print(f"warning: {found.path}: has no colour, by which plants are told from soil", file=sys.stderr)
 
 
 def counted(found: Detection) -> str:

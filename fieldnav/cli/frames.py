@@ -1,6 +1,7 @@
 """Frames given on the command line, one after the other: a folder of pictures, or a video."""
 
 import os
+import re
 import stat
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -10,10 +11,12 @@ import cv2
 import numpy as np
 
 from drivers.recorded_camera import PICTURES
-from fieldnav.cli.pictures import read_picture
+from fieldnav.cli.pictures import check_size, read_picture
 from fieldnav.errors import SettingsError
 from fieldnav.messages import Image
 
+FFMPEG_LOG, SILENT = "OPENCV_FFMPEG_LOGLEVEL", "-8"
+"""OpenCV reads this from the environment when it opens its first video."""
 ALLOWED = "allowed is a folder of pictures, or a video that OpenCV reads"
 
 
@@ -27,6 +30,8 @@ class Frames:
 
 def frames_of(source: str) -> Frames:
     """The frames of a folder, by name, or of a video. Raises SettingsError, also while they are read."""
+    if not source:
+        raise SettingsError(f"'': is no name that a folder or a video can have; {ALLOWED}")
     try:
         mode = os.stat(source).st_mode
     except FileNotFoundError as error:
@@ -46,7 +51,7 @@ def frames_of(source: str) -> Frames:
 
 def _of_folder(source: str) -> Frames:
     try:
-        names = sorted(name for name in os.listdir(source) if Path(name).suffix.lower() in PICTURES)
+        names = sorted(filter(_is_picture, os.listdir(source)), key=_in_order)
     except OSError as error:
         raise SettingsError(f"{source}: cannot be read: {error.strerror}") from error
     if not names:
@@ -55,7 +60,29 @@ def _of_folder(source: str) -> Frames:
     return Frames(len(paths), _of_one_size((path, read_picture(path)) for path in paths))
 
 
+def _is_picture(name: str) -> bool:
+    """Whether a file is a picture by its name; a hidden one, as memory cards hold, is none."""
+    return Path(name).suffix.lower() in PICTURES and not name.startswith(".")
+
+
+def _in_order(name: str) -> tuple[list[tuple[str, int]], str]:
+    """What names are sorted by: 9.jpg comes before 10.jpg."""
+    parts = re.findall(r"([^0-9]*)([0-9]*)", name)
+    return [(text, int(number or -1)) for text, number in parts], name
+
+
+def quiet_videos() -> None:
+    """Keep FFmpeg's own words about a broken video off the terminal; to be called before one is opened."""
+    os.environ.setdefault(FFMPEG_LOG, SILENT)
+
+
 def _of_video(source: str) -> Frames:
+    quiet_videos()
+    try:
+        with open(source, "rb"):
+            pass
+    except OSError as error:
+        raise SettingsError(f"{source}: cannot be read: {error.strerror}") from error
     level = cv2.utils.logging.setLogLevel(cv2.utils.logging.LOG_LEVEL_SILENT)
     try:
         capture = cv2.VideoCapture(source)
@@ -83,10 +110,12 @@ def _played(source: str, capture: cv2.VideoCapture) -> Iterator[tuple[str, Image
 
 
 def _of_one_size(images: Iterator[tuple[str, Image]]) -> Iterator[tuple[str, Image]]:
-    """The same frames; raises SettingsError for one that another camera took."""
+    """The same frames; raises SettingsError for one that another camera took, or that no camera takes."""
     first: tuple[int, ...] | None = None
     for name, image in images:
-        first = image.shape if first is None else first
+        if first is None:
+            check_size(image, name)
+            first = image.shape
         if image.shape != first:
             sizes = [f"{width}x{height} px" for height, width, *_ in (image.shape, first)]
             raise SettingsError(f"{name}: is {sizes[0]}; allowed is {sizes[1]}, the size of the first frame")

@@ -1,6 +1,6 @@
 """Pictures given on the command line, read and checked, and pictures with rows drawn in, written."""
 
-import tempfile
+import os
 from collections.abc import Sequence
 from pathlib import Path
 
@@ -8,7 +8,8 @@ import cv2
 import numpy as np
 from pydantic import Field
 
-from fieldnav.errors import OutputError, SettingsError
+from fieldnav.cli.output_folder import make_writable
+from fieldnav.errors import SettingsError
 from fieldnav.journal.files import write_atomically
 from fieldnav.messages import Image
 from fieldnav.settings.loading import revised
@@ -34,6 +35,8 @@ class PictureSize(Settings):
 
 def read_picture(path: str) -> Image:
     """The picture in a file, shape (height, width, 3), blue green red. Raises SettingsError."""
+    if not path:
+        raise SettingsError("'': is no name that a file can have")
     content = read_regular(path, LARGEST_FILE_BYTES)
     image = _decoded(content) if content else None
     if image is None:
@@ -41,8 +44,13 @@ def read_picture(path: str) -> Image:
             f"{path}: is no whole picture; allowed is JPEG, PNG, TIFF, BMP or WebP of at most "
             f"{LARGEST_SIDE_PX} px a side"
         )
-    revised(PictureSize(), {"width_px": image.shape[1], "height_px": image.shape[0]}, path)
+    check_size(image, path)
     return image
+
+
+def check_size(image: Image, name: str) -> None:
+    """Raise SettingsError, naming `name`, for a picture too small or too large to look for rows in."""
+    revised(PictureSize(), {"width_px": image.shape[1], "height_px": image.shape[0]}, name)
 
 
 def _decoded(content: bytes) -> Image | None:
@@ -58,19 +66,16 @@ def _decoded(content: bytes) -> Image | None:
 
 
 def overlay_paths(images: Sequence[str], folder: Path) -> dict[str, Path]:
-    """Where each picture's overlay goes; the folder is made if it lacks. Raises OutputError."""
-    try:
-        folder.mkdir(parents=True, exist_ok=True)
-        with tempfile.TemporaryFile(dir=folder):
-            pass
-    except OSError as error:
-        raise OutputError(
-            f"{folder}: overlays cannot be written here: {error.strerror}; allowed is a folder you can write"
-        ) from error
+    """Where each picture's overlay goes, over none of the pictures themselves. Raises OutputError.
+
+    The folder is made if it lacks.
+    """
+    make_writable(folder, f"--overlay {folder}:")
+    given = {os.path.realpath(image) for image in images}
     paths: dict[str, Path] = {}
     for image in dict.fromkeys(images):
         path, number = folder / f"{Path(image).stem}{OVERLAY_SUFFIX}", 1
-        while path in paths.values():
+        while path in paths.values() or os.path.realpath(path) in given:
             number += 1
             path = folder / f"{Path(image).stem}-{number}{OVERLAY_SUFFIX}"
         paths[image] = path

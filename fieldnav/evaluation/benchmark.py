@@ -1,9 +1,12 @@
 """What a benchmark measures and reports: one row a figure, beside its goal and the best value known."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from enum import Enum
 from pathlib import Path
+from typing import TypeVar
+
+Item = TypeVar("Item")
 
 
 class Better(Enum):
@@ -69,3 +72,11 @@ class Report:
 
 Progress = Callable[[str, int, int], None]
 """Told the part at work, how many of its steps are done, and how many there are."""
+
+
+def one_by_one(part: str, items: Sequence[Item], progress: Progress) -> Iterator[Item]:
+    """The items of a part one by one, progress being told before each of them and after the last."""
+    for done, item in enumerate(items):
+        progress(part, done, len(items))
+        yield item
+    progress(part, len(items), len(items))

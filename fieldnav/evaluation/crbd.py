@@ -9,8 +9,7 @@ from pathlib import Path
 
 import numpy as np
 
-from fieldnav.errors import SettingsError
-from fieldnav.evaluation.benchmark import Figure, Progress
+from fieldnav.evaluation.benchmark import Figure, Progress, one_by_one
 from fieldnav.evaluation.crbd_score import LOWER_HALF_PX, crda, positions, true_rows
 from fieldnav.evaluation.crbd_truth import HEIGHT_PX, WIDTH_PX, Picture, pictures_in
 from fieldnav.evaluation.found_rows import UNMATCHED, Finder
@@ -54,20 +53,12 @@ class _Scored:
 def crbd(folder: Path, find: Finder, progress: Progress, quick: bool) -> tuple[list[Figure], JudgedRows]:
     """The figures of this set, and every row found with whether it is right. Raises SettingsError."""
     pictures = pictures_in(folder)[:: QUICK_STEP if quick else 1]
-    scored = []
-    for number, picture in enumerate(pictures):
-        progress(PART, number, len(pictures))
-        scored.append(_scored(picture, find))
-    progress(PART, len(pictures), len(pictures))
+    scored = [_scored(picture, find) for picture in one_by_one(PART, pictures, progress)]
     return _figures(scored), JudgedRows.joined(each.judged for each in scored)
 
 
 def _scored(picture: Picture, find: Finder) -> _Scored:
-    image = read_photograph(picture.path)
-    if image.shape[:2] != (HEIGHT_PX, WIDTH_PX):
-        size = f"{image.shape[1]}x{image.shape[0]}"
-        raise SettingsError(f"{picture.path}: size: {size}: allowed is {WIDTH_PX}x{HEIGHT_PX}")
-    found = find(image, None)
+    found = find(read_photograph(picture.path, (WIDTH_PX, HEIGHT_PX)), None)
     authors = None if picture.authors_px is None else _scores(picture.authors_px, picture)
     right = true_rows(positions(found.paths_px), picture.truth) != UNMATCHED
     return _Scored(

@@ -43,6 +43,8 @@ def crda(found_px: Floats, truth: TrueLattice, first_row: int = 0) -> float:
     if group is None or not known.any():
         return 0.0
     visible = truth.visible()
+    if not len(visible):
+        return 0.0
     firsts = np.arange(visible[0] - GROUP + 1, visible[-1] + 1)
     true = truth.rows(firsts[:, None] + np.arange(GROUP))[..., known]
     off = (true - group[None][..., known]) / (TOLERANCE * truth.spacing_px[known])

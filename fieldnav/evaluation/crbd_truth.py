@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fieldnav.errors import SettingsError
-from fieldnav.evaluation.photographs import read_words
+from fieldnav.evaluation.photographs import PhotographSet, read_words
 from fieldnav.messages import Floats
 
 WIDTH_PX, HEIGHT_PX = 320, 240
@@ -16,13 +16,19 @@ WIDTH_PX, HEIGHT_PX = 320, 240
 CENTRE_PX = WIDTH_PX / 2
 """The column that a row's offset c counts from."""
 
-PICTURES, TRUTH, AUTHORS = "images", "gt", "tmgem"
+PICTURES, TRUTH, AUTHORS = "images", PhotographSet.CRBD.truth, "tmgem"
 """Folders of the set."""
+
+PICTURE_SUFFIXES = (".jpg", ".JPG", ".jpeg", ".png")
+"""That a picture may have; the first is what the set itself has."""
 
 OFFSET, SPACING = 0, 1
 """Columns of a .crp file."""
 
 TRUTH_COLUMNS, AUTHORS_ROWS = 2, 3
+
+LEAST_SPACING_PX, LARGEST_OFFSET_PX = 1.0, 10.0 * WIDTH_PX
+"""Beyond these a picture would have thousands of true rows, or none; the set's own keep far within."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -41,7 +47,7 @@ class TrueLattice:
         return np.where((place >= 0) & (place < WIDTH_PX), place, np.nan)
 
     def visible(self) -> NDArray[np.int64]:
-        """The indices, rising, of every row that the picture shows a part of."""
+        """The indices, rising, of every row that the picture shows a part of; there may be none."""
         left = np.nanmin(np.ceil(-(self.offset_px + CENTRE_PX) / self.spacing_px))
         right = np.nanmax(np.floor((WIDTH_PX - self.offset_px - CENTRE_PX) / self.spacing_px))
         return np.arange(int(left), int(right) + 1, dtype=np.int64)
@@ -69,7 +75,9 @@ def _picture(folder: Path, path: Path) -> Picture:
     rows = _numbers(authors, AUTHORS_ROWS).T if authors.exists() else None
     if rows is not None and rows.shape[1] != HEIGHT_PX:
         raise SettingsError(f"{authors}: has {rows.shape[1]} lines; allowed is {HEIGHT_PX}")
-    return Picture(folder / PICTURES / f"{path.stem}.jpg", read_truth(path), rows)
+    pictures = [folder / PICTURES / f"{path.stem}{suffix}" for suffix in PICTURE_SUFFIXES]
+    picture = next((each for each in pictures if each.exists()), pictures[0])
+    return Picture(picture, read_truth(path), rows)
 
 
 def read_truth(path: Path) -> TrueLattice:
@@ -77,8 +85,11 @@ def read_truth(path: Path) -> TrueLattice:
     numbers = _numbers(path, TRUTH_COLUMNS)
     if not 0 < len(numbers) <= HEIGHT_PX:
         raise SettingsError(f"{path}: has {len(numbers)} lines; allowed is 1 to {HEIGHT_PX}")
-    if not (numbers[:, SPACING] > 0).all():
-        raise SettingsError(f"{path}: d: {numbers[:, SPACING].min():g}: allowed is more than 0")
+    spacing, offset = numbers[:, SPACING], numbers[:, OFFSET]
+    if (least := spacing.min()) < LEAST_SPACING_PX:
+        raise SettingsError(f"{path}: d: {least:g}: allowed is {LEAST_SPACING_PX:g} px or more")
+    if (furthest := np.abs(offset).max()) > LARGEST_OFFSET_PX:
+        raise SettingsError(f"{path}: c: {furthest:g}: allowed is {LARGEST_OFFSET_PX:g} px or less")
     whole = np.full((HEIGHT_PX, TRUTH_COLUMNS), np.nan)
     whole[HEIGHT_PX - len(numbers) :] = numbers
     return TrueLattice(whole[:, OFFSET], whole[:, SPACING])

@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 from scipy.optimize import linear_sum_assignment
 
 from fieldnav.messages import Floats, Image, RowLine
-from fieldnav.settings.crop import CropProfile
+from fieldnav.settings.crop import CropProfile, RowFinder
 
 Indices = NDArray[np.int64]
 
@@ -39,6 +39,11 @@ class FoundRows:
 
 Finder = Callable[[Image, CropProfile | None], FoundRows]
 """Finds the rows of a picture whose camera is not known; None for a crop that is not known either."""
+
+
+def with_method(crop: CropProfile, method: RowFinder) -> CropProfile:
+    """The same profile, finding rows by a method."""
+    return crop.model_copy(update={"finding": crop.finding.model_copy(update={"method": method})})
 
 
 def match(distance: Floats, limit: float) -> Indices:

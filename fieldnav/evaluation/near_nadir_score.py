@@ -84,7 +84,7 @@ def score(
 def mean_distance(found: Sequence[RowLine], true: Sequence[RowLine], size: tuple[int, int]) -> Floats:
     """Mean horizontal distance over the lower three quarters, a share of the width; shape (found, true)."""
     width, height = size
-    down = np.arange(round(JUDGED_FROM * height), height) / (height - 1)
+    down = np.arange(round(JUDGED_FROM * height), height) / max(height - 1, 1)
     ours, theirs = _ends(found), _ends(true)
     top, bottom = (ours[:, None, end, None] - theirs[None, :, end, None] for end in (0, 1))
     return np.asarray(np.abs(top + (bottom - top) * down).mean(axis=-1) / width)

@@ -1,19 +1,18 @@
 """The true rows of the photographs near the robot's own view, as rows.json holds them."""
 
-import json
 from dataclasses import dataclass
 from enum import Enum
 from pathlib import Path
 from typing import Any
 
-from pydantic import BaseModel, ConfigDict, FiniteFloat, ValidationError
+from pydantic import BaseModel, ConfigDict, Field
 
 from fieldnav.errors import SettingsError
-from fieldnav.evaluation.photographs import read_words
+from fieldnav.evaluation.photographs import Column, PhotographSet
+from fieldnav.evaluation.truth_file import checked, read_json
 from fieldnav.messages import RowLine
-from fieldnav.settings.problems import describe
 
-TRUTH = "rows.json"
+TRUTH = PhotographSet.NEAR_NADIR.truth
 ABOUT = "_meta"
 """The entry of rows.json that is no photograph."""
 
@@ -26,34 +25,25 @@ class Flag(Enum):
     WEAK = "w"
 
 
-class PhotographedCrop(Enum):
-    """What grows in a photograph."""
-
-    MAIZE = "maize"
-    EARLY_MAIZE = "maize (early)"
-    SOYBEAN = "soybean"
-    WINTER_WHEAT = "winter wheat"
-
-
 class _Row(BaseModel):
     model_config = ConfigDict(frozen=True)
-    x_top: FiniteFloat
-    x_bottom: FiniteFloat
+    x_top: Column
+    x_bottom: Column
     flag: Flag
 
 
 class _Entry(BaseModel):
     model_config = ConfigDict(frozen=True)
-    crop: PhotographedCrop
+    crop: str = Field(min_length=1)
     rows: tuple[_Row, ...]
 
 
 @dataclass(frozen=True, slots=True)
 class Photograph:
-    """One photograph: its file, its crop, its true rows, and which of them must be found."""
+    """One photograph: its file, its crop in words, its true rows, and which of them must be found."""
 
     path: Path
-    crop: PhotographedCrop
+    crop: str
     rows: tuple[RowLine, ...]
     must_be_found: tuple[bool, ...]
 
@@ -63,27 +53,19 @@ def photographs_in(folder: Path) -> list[Photograph]:
     path = folder / TRUTH
     entries = _document(path)
     return [
-        _photograph(folder / "images" / name, _checked(entry, f"{path}: {name}"))
+        _photograph(folder / "images" / name, checked(entry, _Entry, f"{path}: {name}"))
         for name, entry in entries.items()
         if name != ABOUT
     ]
 
 
 def _document(path: Path) -> dict[str, Any]:
-    try:
-        document = json.loads(read_words(path))
-    except ValueError as error:
-        raise SettingsError(f"{path}: is no JSON: {error}") from error
+    document = read_json(path)
     if not isinstance(document, dict):
         raise SettingsError(f"{path}: is no JSON object; allowed is one key a photograph")
+    if not document.keys() - {ABOUT}:
+        raise SettingsError(f"{path}: names no photograph; allowed is one key a photograph")
     return document
-
-
-def _checked(entry: object, label: str) -> _Entry:
-    try:
-        return _Entry.model_validate(entry)
-    except ValidationError as error:
-        raise SettingsError(f"{label}: {describe(error, _Entry)[0]}") from error
 
 
 def _photograph(path: Path, entry: _Entry) -> Photograph:

@@ -2,11 +2,10 @@
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from math import cos, radians, sin
 
 import numpy as np
 
-from fieldnav.evaluation.rendered_rows import NEAREST_M, REACH_M
+from fieldnav.evaluation.rendered_truth import POINT_STEP_M, REACH_M, as_it_hangs, seen_at, view_from
 from fieldnav.messages import Floats, Image, Side
 from fieldnav.perception.canopy import VISIBLE_HEIGHT
 from fieldnav.settings.crop import CropProfile
@@ -15,10 +14,9 @@ from fieldnav.settings.robot import Robot
 from fieldnav.simulation.plan import sow
 from fieldnav.simulation.renderer import FieldRenderer, View
 from fieldnav.simulation.sensor import Sensor
-from fieldnav.simulation.shaking import Shaking, rotation
+from fieldnav.simulation.shaking import Shaking
 
 FRAMES_PER_S = 15.0
-POINT_STEP_M = 0.02  # between the points of a true row
 
 
 @dataclass(frozen=True, slots=True)
@@ -37,15 +35,12 @@ class SidestepScene:
 
     def __init__(self, field: FieldSettings, crop: CropProfile, robot: Robot) -> None:
         errors = field.camera_errors
-        self._camera, self._crop = robot.cameras.front.pinhole(), crop
+        self._crop, camera = crop, robot.cameras.front.pinhole()
         self._plan = sow(field, crop, Side.RIGHT)
         self._renderer = FieldRenderer(self._plan, field, crop)
-        self._sensor = Sensor(errors, self._camera.width_px, self._camera.height_px, field.seed)
+        self._sensor = Sensor(errors, camera.width_px, camera.height_px, field.seed)
         self._shaking = Shaking(errors, field.seed, field.mirrored)
-        tilt, height, focal = np.random.default_rng(field.seed).uniform(-1, 1, 3)
-        self._tilt_rad = self._camera.tilt_rad + radians(errors.tilt_error_deg) * tilt
-        self._height_m = self._camera.height_m + errors.height_error_m * height
-        self._focal_px = self._camera.focal_px * (1 + errors.focal_error * focal)
+        self._hung = as_it_hangs(camera, errors, np.random.default_rng(field.seed).uniform(-1, 1, 3))
 
     def pictures(self, right_m: Floats, along_m: float, heading_rad: float = 0.0) -> Iterator[Sidestep]:
         """A picture at each place right of the first lane's middle, shape (n,), so far along the field."""
@@ -58,12 +53,8 @@ class SidestepScene:
     def _view(
         self, right_m: float, along_m: float, heading_rad: float, time_s: float, speed_mps: float
     ) -> View:
-        attitude, ahead_m = self._shaking.at(time_s, speed_mps), self._camera.forward_m
-        x, y = self._plan.centreline.position(along_m, -right_m)
-        z = self._height_m + attitude.height_m - ahead_m * sin(attitude.pitch_rad)
-        position = np.array([x + ahead_m * cos(heading_rad), y + ahead_m * sin(heading_rad), z])
-        turned = rotation(attitude, 1, heading_rad, self._tilt_rad)
-        return View(self._camera.width_px, self._camera.height_px, self._focal_px, position, turned)
+        place_m = self._plan.centreline.position(along_m, -right_m)
+        return view_from(self._hung, place_m, heading_rad, self._shaking.at(time_s, speed_mps))
 
     def _beside_px(self, view: View, along_m: float) -> Floats:
         s = np.arange(along_m - REACH_M, along_m + REACH_M, POINT_STEP_M)
@@ -75,11 +66,6 @@ class SidestepScene:
         return np.array([self._at_mid_height_px(view, line) for line in lines])
 
     def _at_mid_height_px(self, view: View, line_m: Floats) -> float:
-        height_m = VISIBLE_HEIGHT * self._crop.plants.canopy_height_m
-        point = np.column_stack([line_m, np.full(len(line_m), height_m)]) - view.position_m
-        u, v, depth = view.projection @ point.T
-        before = depth > NEAREST_M
-        order = np.argsort(v[before] / depth[before])
-        middle = (view.height_px - 1) / 2
-        x = np.interp(middle, (v[before] / depth[before])[order], (u[before] / depth[before])[order])
-        return float(x) - (view.width_px - 1) / 2
+        point_px = seen_at(view, line_m, VISIBLE_HEIGHT * self._crop.plants.canopy_height_m)
+        x, y = point_px[np.argsort(point_px[:, 1])].T
+        return float(np.interp((view.height_px - 1) / 2, y, x)) - (view.width_px - 1) / 2

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from fieldnav.evaluation.benchmark import Better, Figure, LeftOut, Plan, Progress, Report
+from fieldnav.evaluation.benchmark import Better, Figure, LeftOut, Plan, Progress, Report, one_by_one
 from fieldnav.evaluation.photographs import PhotographSet
 from fieldnav.evaluation.showing import Showing, order_of
 from fieldnav.evaluation.sidestep_scene import SidestepScene
@@ -49,18 +49,15 @@ class _Judged:
 
 def sideways(plan: Plan, progress: Progress) -> Report:
     """The figures of every sequence there is, and of rendered sidesteps. Raises SettingsError."""
-    folder = PhotographSet.NEAR_NADIR.folder(plan)
+    folder = PhotographSet.NEAR_NADIR.folder(plan, FOLDER)
     if folder is None:
-        return Report(
-            tuple(_rendered(plan, progress)), (LeftOut(PART, PhotographSet.NEAR_NADIR.absence(plan).reason),)
-        )
+        absence = LeftOut(PART, PhotographSet.NEAR_NADIR.absence(plan, FOLDER).reason)
+        return Report(tuple(_rendered(plan, progress)), (absence,))
     figures, sequences = [], sequences_in(folder / FOLDER)
-    for number, sequence in enumerate(sequences):
-        progress(PART, number, len(sequences))
+    for sequence in one_by_one(PART, sequences, progress):
         judged = _shown(sequence.images(), sequence.beside, UNKNOWN, tuple(Showing))
         figures += _figures(f"sideways, {sequence.name}", judged)
-    progress(PART, len(sequences), len(sequences))
-    left_out = () if sequences else (LeftOut(PART, f"there is no sequence in {folder / FOLDER}"),)
+    left_out = () if sequences else (LeftOut(PART, f"{folder / FOLDER} holds no sequence taken sideways"),)
     return Report((*figures, *_rendered(plan, progress)), left_out)
 
 
@@ -69,8 +66,7 @@ def _rendered(plan: Plan, progress: Progress) -> list[Figure]:
     robot, seeds = load_robot(ROBOT), QUICK_SEEDS if plan.quick else SEEDS
     names, shown = (FIELDS[:1], QUICK_SHOWN) if plan.quick else (FIELDS, tuple(Showing))
     figures = []
-    for number, name in enumerate(names):
-        progress(RENDERED, number, len(names))
+    for name in one_by_one(RENDERED, names, progress):
         judged: dict[str, list[Mapping[Showing, _Judged]]] = {"": [], ", unknown": []}
         for seed in range(plan.seed, plan.seed + seeds):
             field = revised(load_field(name), {"lanes": LANES, "length_m": LENGTH_M, "seed": seed})
@@ -80,7 +76,6 @@ def _rendered(plan: Plan, progress: Progress) -> list[Figure]:
                 judged[case].append(_shown(images, beside, known, shown))
         for case, of_seeds in judged.items():
             figures += _of_field(f"sidestep, {name}{case}", of_seeds)
-    progress(RENDERED, len(names), len(names))
     return figures
 
 
@@ -138,4 +133,5 @@ def _of_field(case: str, of_seeds: Sequence[Mapping[Showing, _Judged]]) -> list[
 def _in_time(case: str, judged: Sequence[_Judged]) -> Figure:
     true = sum(each.true for each in judged)
     share = sum(each.in_time for each in judged) / true * PERCENT if true else float("nan")
-    return Figure(case, f"crossings within {WITHIN} frames (%)", share, goal=GOAL_PERCENT)
+    goal = GOAL_PERCENT if true else None
+    return Figure(case, f"crossings within {WITHIN} frames (%)", share, goal=goal)

@@ -1,19 +1,17 @@
 """Photographs of a camera that moves sideways over rows, and which of them it truly crosses, from gt.json."""
 
-import json
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from enum import Enum
 from pathlib import Path
 
 import numpy as np
-from pydantic import BaseModel, ConfigDict, Field, FiniteFloat, ValidationError
+from pydantic import BaseModel, ConfigDict, Field
 
-from fieldnav.errors import SettingsError
-from fieldnav.evaluation.photographs import read_photograph, read_words
+from fieldnav.evaluation.photographs import Column, read_photograph
+from fieldnav.evaluation.truth_file import checked, read_json
 from fieldnav.messages import Floats, Image, Side
 from fieldnav.perception.counting.row_count import RowCount, passages_of
-from fieldnav.settings.problems import describe
 
 TRUTH = "gt.json"
 
@@ -28,8 +26,8 @@ class Mode(Enum):
 class _Row(BaseModel):
     model_config = ConfigDict(frozen=True)
     id: int
-    x_top: FiniteFloat
-    x_bottom: FiniteFloat
+    x_top: Column
+    x_bottom: Column
 
 
 class _Frame(BaseModel):
@@ -47,23 +45,27 @@ class _Sequence(BaseModel):
 
 @dataclass(frozen=True, slots=True)
 class SidewaysSequence:
-    """The pictures, and where each row passes mid-height in each of them.
+    """The pictures, of one size, and where each row passes mid-height in each of them.
 
     beside: shape (rows, frames), pixels right of the centre column, NaN in frames that a row is not in.
     """
 
     name: str
     paths: tuple[Path, ...]
+    size_px: tuple[int, int]
     beside: Floats
 
     def images(self) -> list[Image]:
-        """Every picture. Raises SettingsError."""
-        return [read_photograph(path) for path in self.paths]
+        """Every picture. Raises SettingsError, also for one of another size than the truth is of."""
+        return [read_photograph(path, self.size_px) for path in self.paths]
 
 
 def sequences_in(folder: Path) -> list[SidewaysSequence]:
     """The sequences taken sideways among the folders of a folder, by name. Raises SettingsError."""
-    read = [(path.parent, _read(path)) for path in sorted(folder.glob(f"*/{TRUTH}"))]
+    read = [
+        (path.parent, checked(read_json(path), _Sequence, str(path)))
+        for path in sorted(folder.glob(f"*/{TRUTH}"))
+    ]
     return [_sequence(parent, document) for parent, document in read if document.mode is Mode.LATERAL]
 
 
@@ -78,15 +80,6 @@ def true_count(beside: Floats, frames: Sequence[int], direction: Side) -> RowCou
     return RowCount(tuple(sorted(passages, key=lambda passage: passage.frame)), direction)
 
 
-def _read(path: Path) -> _Sequence:
-    try:
-        return _Sequence.model_validate(json.loads(read_words(path)))
-    except ValidationError as error:
-        raise SettingsError(f"{path}: {describe(error, _Sequence)[0]}") from error
-    except ValueError as error:
-        raise SettingsError(f"{path}: is no JSON: {error}") from error
-
-
 def _sequence(folder: Path, document: _Sequence) -> SidewaysSequence:
     numbers = sorted({row.id for frame in document.frames for row in frame.rows})
     beside = np.full((len(numbers), len(document.frames)), np.nan)
@@ -94,4 +87,4 @@ def _sequence(folder: Path, document: _Sequence) -> SidewaysSequence:
         for row in frame.rows:
             beside[numbers.index(row.id), at] = (row.x_top + row.x_bottom) / 2 - (document.size[0] - 1) / 2
     paths = tuple(folder / frame.file for frame in document.frames)
-    return SidewaysSequence(folder.name, paths, beside)
+    return SidewaysSequence(folder.name, paths, document.size, beside)

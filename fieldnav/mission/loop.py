@@ -4,20 +4,20 @@ from collections.abc import Iterable, Mapping
 
 from drivers.ports import Camera, Wheels
 from fieldnav.errors import DriverError, FieldnavError
-from fieldnav.journal.entry import Entry
 from fieldnav.journal.journal import Journal
-from fieldnav.messages import STANDSTILL, CameraName, Frame, Motion, WheelReport
+from fieldnav.messages import CameraName, Frame, Motion, WheelReport
 from fieldnav.mission.camera_watch import CameraWatch
+from fieldnav.mission.chronicle import Chronicle
 from fieldnav.mission.eyes import Eyes
 from fieldnav.mission.gate import Gate, Passed
 from fieldnav.mission.progress import Progress
-from fieldnav.mission.tick import Observer, Tick
+from fieldnav.mission.tick import Observer
 from fieldnav.mission.travel import Travel
 from fieldnav.settings.robot import Robot
 from states.behaviour import Observation, Step, Task
 from states.behaviours import Behaviours
 from states.machine import Change, MissionMachine
-from states.names import Event, Path, text
+from states.names import Event
 from states.table import FINISHED, LANE_LEAVES, LATCHED, RECOVERABLE
 
 TICK_S = 0.02
@@ -39,15 +39,14 @@ class Mission:
         journal: Journal,
         observers: Iterable[Observer] = (),
     ) -> None:
-        self._wheels, self._journal = wheels, journal
-        self._observers = list(observers)
+        self._wheels = wheels
         self._gate, self._travel, self._progress = Gate(wheels, robot), Travel(robot), Progress()
         self._eyes = Eyes(cameras, robot.timeouts.frame_s)
         self._camera_watch = CameraWatch(task, robot.camera_limits)
         self.machine = MissionMachine()
         self.behaviours = Behaviours(task)
+        self._chronicle = Chronicle(journal, observers, self.behaviours, self._travel)
         self._report = WheelReport()
-        self._held_in: Path | None = None
         self._ended_s: float | None = None
         self._now_s = 0.0
 
@@ -66,7 +65,8 @@ class Mission:
             self._go(now_s, Step(event=Event.START))
             self.break_off(now_s, Event.LATCH, str(error))
             return
-        self._tell(now_s, self._go(now_s, Step(event=Event.START)), Step(), NOTHING_SENT)
+        change = self._go(now_s, Step(event=Event.START))
+        self._chronicle.tell(now_s, self.machine.leaf, change, Step(), NOTHING_SENT)
 
     def tick(self, now_s: float) -> None:
         """One round of the loop; times must rise. Whatever goes wrong, the wheels are stopped first.
@@ -93,7 +93,7 @@ class Mission:
         self._travel.measure(now_s, self._report)
         step = Step(event=event, reason=reason)
         change = self._go(now_s, step) if self.machine.may(event) else None
-        self._tell(now_s, change, step, NOTHING_SENT)
+        self._chronicle.tell(now_s, self.machine.leaf, change, step, NOTHING_SENT)
 
     def _round(self, now_s: float) -> None:
         self._report = self._wheels.poll(now_s)
@@ -106,11 +106,11 @@ class Mission:
         moving = self.machine.leaf in LANE_LEAVES
         motion = step.motion if moving else Motion()
         passed = self._gate.pass_on(now_s, motion, moving, self._eyes.age_s(now_s, guides), self._report)
-        self._note_held(now_s, passed)
+        self._chronicle.held(now_s, self.machine.leaf, passed)
         complaint = self._progress.complaint(now_s, passed, self._travel.standing)
         if complaint and change is None and moving:
             change = self._go(now_s, Step(event=Event.FAIL, reason=complaint))
-        self._tell(now_s, change, step, passed, warning)
+        self._chronicle.tell(now_s, self.machine.leaf, change, step, passed, warning)
 
     def _observe(self, now_s: float, frames: Mapping[CameraName, Frame]) -> Observation:
         return Observation(
@@ -127,18 +127,11 @@ class Mission:
         """Fire, write it down, take up the new state: the journal is on the disk before the wheels obey."""
         assert step.event is not None, "only an event changes the state"
         change = self.machine.fire(step.event)
-        self._record(now_s, step.event.value, change.source, change.target, step)
+        self._chronicle.changed(now_s, change, step)
         self.behaviours.enter(change)
         ended = change.target in (FINISHED, RECOVERABLE, LATCHED)
         self._ended_s = now_s if ended else None
         return change
-
-    def _note_held(self, now_s: float, passed: Passed) -> None:
-        """Write down, once a state, that the gate held the wheels although the state wanted to move."""
-        leaf = self.machine.leaf
-        if passed.reason is not None and self._held_in != leaf:
-            self._held_in = leaf
-            self._record(now_s, "held by the gate", leaf, leaf, Step(reason=passed.reason))
 
     def _note_knocked(self, now_s: float, step: Step) -> str:
         """Write down, once a camera, that the rows show it knocked away; the state stays as it is."""
@@ -146,48 +139,5 @@ class Mission:
         found = self._camera_watch.complaint(leaf, step, self._travel.forward_m)
         if found is None:
             return ""
-        self._record(now_s, "camera knocked", leaf, leaf, found)
+        self._chronicle.noted(now_s, "camera knocked", leaf, found)
         return found.reason
-
-    def _record(self, now_s: float, event: str, source: Path, target: Path, step: Step) -> None:
-        lane = self.behaviours.lane
-        entry = Entry(
-            stamp_s=now_s,
-            event=event,
-            source=text(source),
-            target=text(target),
-            lane=lane.number,
-            rows=lane.rows,
-            evidence=step.evidence,
-            frame=step.sight.frame if step.sight else None,
-            command=step.motion.twist if target in LANE_LEAVES else STANDSTILL,
-            reason=step.reason,
-        )
-        self._journal.record(entry)
-
-    def _tell(
-        self, now_s: float, change: Change | None, step: Step, passed: Passed, warning: str = ""
-    ) -> None:
-        lane = self.behaviours.lane
-        tick = Tick(
-            now_s=now_s,
-            state=self.machine.leaf,
-            change=change,
-            step=step,
-            passed=passed,
-            lane=lane.number,
-            rows=lane.rows,
-            rows_passed=lane.rows_passed,
-            forward_m=self._travel.forward_m,
-            sideways_m=self._travel.sideways_m,
-            warning=warning,
-        )
-        for observer in tuple(self._observers):
-            try:
-                observer.watch(tick)
-            except Exception as error:  # who only watches may not stop the mission
-                self._observers.remove(observer)
-                reason = f"{type(observer).__name__} watches no longer: {type(error).__name__}: {error}"
-                self._record(
-                    now_s, "observer lost", self.machine.leaf, self.machine.leaf, Step(reason=reason)
-                )

@@ -14,7 +14,9 @@ from fieldnav.perception.ground_plants import on_ground
 from fieldnav.perception.settle import settle_lines
 from fieldnav.perception.vegetation import Cover
 from fieldnav.pinhole import Pinhole
-from fieldnav.settings.crop import CropProfile, RowFinder
+from fieldnav.settings.crop import CropProfile, Finding, RowFinder
+
+NARROWER = 0.5  # a window against the distance between rows at mid-height, at most
 
 
 def find_rows(
@@ -27,11 +29,19 @@ def find_rows(
 def _by_moving_variance(
     cover: Cover, centres: Centres, crop: CropProfile, camera: Pinhole, pose_known: bool
 ) -> Found:
-    lines = moving_variance.find_rows(centres, crop.finding, camera)
+    lines = moving_variance.find_rows(centres, _fitting(crop, camera), camera)
     lines = settle_lines(lines, None, on_ground(centres, crop, camera), crop, camera)
     y = np.array([0.0, camera.height_px - 1.0])
     paths = [np.stack([line_px(line, y, camera), y], axis=-1) for line in lines]
     return Found(lines, np.array(paths).reshape(len(lines), len(y), 2))
+
+
+def _fitting(crop: CropProfile, camera: Pinhole) -> Finding:
+    """The profile's window and stride, smaller where rows stand so close that two would share one."""
+    spacing_px = crop.rows.spacing_m * float(canopy_plane(camera, crop).pixels_per_metre(camera.centre_y_px))
+    share = min(1.0, NARROWER * spacing_px / camera.width_px / crop.finding.window)
+    changes = {"window": share * crop.finding.window, "stride": share * crop.finding.stride}
+    return crop.finding.model_copy(update=changes)
 
 
 def _by_comb(cover: Cover, centres: Centres, crop: CropProfile, camera: Pinhole, pose_known: bool) -> Found:

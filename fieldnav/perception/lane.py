@@ -61,12 +61,15 @@ def lane_rows(
     if not seen:
         return None
     found = np.array([(*plane.row_on_ground(line), line.confidence) for line in seen])
-    found = found[np.isfinite(found).all(axis=1)]
-    if not len(found):
-        return None
     near_m, far_m = plane.view_m
     middle_m = (near_m + far_m) / 2
     bound = widest_offset(crop, widest_offset_m)
+    # Rows of lanes beside this one have no part in it, nor has what lies nowhere on the ground.
+    reach = bound + (crop.rows.per_lane + 1) / 2 * crop.rows.spacing_m
+    within = np.abs(found[:, 0] + found[:, 1] * near_m) <= reach
+    found, seen = found[within], [line for line, near in zip(seen, within, strict=True) if near]
+    if not len(found):
+        return None
     offset, slope = _best_comb(found, comb_m(crop), middle_m, near_m, bound, crop.rows.spacing_m)
     return _fit(found, seen, (offset, slope), crop, plane) if np.isfinite(offset) else None
 

@@ -5,10 +5,10 @@ from typing import Annotated
 
 from pydantic import Field
 
+from fieldnav.settings.lane_change import Recognition, RowEnd, Seconds, Switching
 from fieldnav.settings.model import FileName, Settings
 
 Fraction = Annotated[float, Field(ge=0, le=1)]
-Seconds = Annotated[float, Field(gt=0, le=60)]
 
 
 class VegetationIndex(Enum):
@@ -70,54 +70,6 @@ class Tracking(Settings):
     narrowest: Fraction = Field(default=0.05, description="parallelogram width over image width (paper: 5 %)")
     hold_s: Seconds = Field(default=4.0, description="how long a row that is not seen keeps its last line")
     fewest_centres: int = Field(default=2, ge=2, le=50)
-
-
-class RowEnd(Settings):
-    """When following and exit end (paper III-A.3), as a decision over time and distance."""
-
-    confirm_s: Seconds = 0.4
-    confirm_m: float = Field(default=0.15, gt=0, le=3)
-    exit_confirm_s: Seconds = Field(
-        default=0.1,
-        description="the same when leaving; the leading camera has seen no row for metres by then",
-    )
-    exit_confirm_m: float = Field(
-        default=0.03,
-        gt=0,
-        le=1,
-        description="every centimetre more is less of the rows left to see and to count",
-    )
-    least_crop: float = Field(
-        default=0.1, ge=0, le=5, description="crop in half a view that is still a row; 1 is one full row"
-    )
-    longest_gap_m: float = Field(
-        default=2.0,
-        ge=0,
-        le=10,
-        description="how far the robot coasts on without seeing the rows before it stops with a fault",
-    )
-
-
-class Recognition(Settings):
-    """Paper III-C: telling a new row from the same one by SIFT features."""
-
-    match_ratio: float = Field(
-        default=0.0, ge=0, le=2000, description="lambda: matches at or below are left out"
-    )
-    new_row_distance: float = Field(
-        default=295.0, gt=0, le=2000, description="tau: mean distance of a new row's matches"
-    )
-    confirm_frames: int = Field(default=3, ge=1, le=100)
-
-
-class Switching(Settings):
-    """The sidestep to the next lane: how far it may go and how well it must end."""
-
-    longest_sidestep_m: float = Field(default=2.5, gt=0.2, le=6)
-    centred_m: float = Field(
-        default=0.02, gt=0, le=0.2, description="the new lane counts as centred within this"
-    )
-    aligned_deg: float = Field(default=1.5, gt=0, le=10, description="and as aligned within this")
 
 
 class Speeds(Settings):

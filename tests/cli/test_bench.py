@@ -52,6 +52,27 @@ def test_the_table_has_each_figure_beside_its_goal_and_the_best_known(
     ]
 
 
+@pytest.mark.parametrize(
+    ("value", "goal", "better", "said"),
+    [
+        (0.7998, 0.8, Better.HIGHER, "0.7998"),
+        (0.79999, 0.8, Better.HIGHER, "0.79999"),
+        (0.8, 0.8, Better.HIGHER, "0.800"),
+        (3.998, 4.0, Better.HIGHER, "3.998"),
+        (1.5004, 1.5, Better.LOWER, "1.5004"),
+        (1.5 + 1e-9, 1.5, Better.LOWER, "1.500000"),
+        (99.96, 100.0, Better.HIGHER, "99.96"),
+    ],
+)
+def test_a_figure_that_just_misses_its_goal_does_not_read_as_if_it_met_it(
+    value: float, goal: float, better: Better, said: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    out().print(report_table("", Report((Figure("field", "figure", value, goal=goal, better=better),))))
+
+    line = capsys.readouterr().out.splitlines()[-1].split()
+    assert line[2] == said
+
+
 def test_the_table_says_what_was_left_out_and_why(capsys: pytest.CaptureFixture[str]) -> None:
     assert shown(capsys)[-1] == "photographs left out: there is no folder data/[crbd]"
 

@@ -139,7 +139,7 @@ def test_a_wrong_robot_file_is_one_failed_check(bench: Bench) -> None:
 
     status, found = bench.check()
 
-    assert status == 1
+    assert status == 2, "wrong input"
     assert list(found) == ["robot file"]
     assert found["robot file"][0] == "fail"
     assert "timeouts.frame_s" in found["robot file"][1]
@@ -148,10 +148,11 @@ def test_a_wrong_robot_file_is_one_failed_check(bench: Bench) -> None:
 def test_a_crop_that_is_unknown_or_does_not_fit_fails_and_the_cameras_are_still_looked_at(
     bench: Bench,
 ) -> None:
-    _, unknown = bench.check("--crop", "sugar-beat")
+    wrong, unknown = bench.check("--crop", "sugar-beat")
     bench.set(geometry=load_robot("bonnbot").geometry.model_dump() | {"clearance_m": 0.1})
     status, unfit = bench.check("--crop", "sugar-beet")
 
+    assert wrong == 2, "wrong input"
     assert unknown["crop profile"][0] == "fail" and "sugar-beet" in unknown["crop profile"][1]
     assert unknown["front camera frames"][0] == "ok"
     assert status == 1

@@ -96,7 +96,7 @@ def test_a_person_reads_each_passage_and_the_running_count(
     assert run(["count", str(tmp_path / "frames"), "--direction", "right"]) == 0
 
     title, _, *rows = capsys.readouterr().out.rstrip().splitlines()
-    assert title == f"{tmp_path}/frames: 1 row crossed, right counts up"
+    assert title == f"{tmp_path}/frames: 1 row crossed in 20 frames, right counts up"
     assert [re.split(r" +", row.strip())[2:] for row in rows] == [
         ["right", "+1"],
         ["right", "+2"],

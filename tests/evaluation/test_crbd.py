@@ -117,6 +117,13 @@ def test_a_true_row_outside_the_picture_cannot_be_met() -> None:
     assert crda(rows_of(wide, -1, 0, 1), wide) == pytest.approx(1 / 3)
 
 
+def test_ground_truth_without_a_row_in_the_picture_cannot_be_met() -> None:
+    beside = TrueLattice(np.full(HEIGHT, 500.0), np.full(HEIGHT, 1000.0))
+
+    assert crda(rows_of(upright(), -1, 0, 1), beside) == 0
+    assert true_rows(rows_of(upright(), 0), beside).tolist() == [UNMATCHED]
+
+
 def test_a_curve_is_taken_at_every_image_row_and_ends_where_it_ends() -> None:
     bent = np.array([[[100.0, 0.0], [120.0, 120.0], [110.0, 239.0]]])
     short = np.array([[[100.0, 60.0], [120.0, 120.0], [110.0, 239.0]]])
@@ -169,7 +176,7 @@ def test_the_last_line_of_ground_truth_is_the_lowest_image_row(tmp_path: Path) -
         ("1.0\tnan", "finite"),
         ("", "has 0 lines; allowed is 1 to 240"),
         ("1.0\t2.0\n" * 241, "has 241 lines"),
-        ("1.0\t0.0", "d: 0: allowed is more than 0"),
+        ("1.0\t0.0", "d: 0: allowed is 1 px or more"),
     ],
 )
 def test_wrong_ground_truth_is_said_in_one_line(content: str, said: str, tmp_path: Path) -> None:

@@ -159,7 +159,7 @@ def test_no_hit_at_all_has_no_position_error(tmp_path: Path, photos: SimpleNames
     [
         ("{", "is no JSON"),
         ("[]", "is no JSON object"),
-        ('{"0.jpg": {"crop": "rice", "rows": []}}', "0.jpg: crop"),
+        ('{"0.jpg": {"crop": 5, "rows": []}}', "0.jpg: crop"),
         ('{"0.jpg": {"crop": "maize", "rows": [{"x_top": "left", "x_bottom": 2, "flag": "f"}]}}', "x_top"),
         ('{"0.jpg": {"crop": "maize"}}', "rows: is missing"),
     ],

@@ -5,17 +5,12 @@ from math import radians, tan
 import numpy as np
 import pytest
 
-from fieldnav.evaluation.rendered_rows import (
-    Place,
-    Scene,
-    Shot,
-    field_figures,
-    lane_found,
-    score,
-    straight_line,
-)
+from fieldnav.evaluation.rendered_rows import field_figures, lane_found, score
+from fieldnav.evaluation.rendered_scene import Place, Scene, Shot
+from fieldnav.evaluation.rendered_truth import straight_line
 from fieldnav.messages import RowLine, Side
 from fieldnav.perception.canopy import canopy_plane
+from fieldnav.perception.perceive import find
 from fieldnav.settings.crop import CropProfile, RowFinder
 from fieldnav.settings.field import CameraErrors, FieldSettings, Gaps, Rows, Weeds
 from fieldnav.settings.loading import load_crop, load_field
@@ -170,6 +165,16 @@ def test_the_rows_of_a_tidy_field_are_found(tidy: Scene) -> None:
     assert scored.shape == (3, 3)
     assert scored[:, 0].min() > 98
     assert (scored[:, 1] == 100).all()
+
+
+def test_rows_too_few_for_a_lane_are_reported_as_the_finder_shows_them(tidy: Scene) -> None:
+    shot = shoot(tidy, Place(0, 6.0))
+    wide = BEET.model_copy(update={"rows": BEET.rows.model_copy(update={"per_lane": 7})})
+
+    found = lane_found(shot, wide)
+
+    assert find(shot.image, wide, shot.camera).lane is None
+    assert score(shot.truth, found, shot.camera)[:, 0].min() > 98
 
 
 def test_a_field_has_three_goals_by_its_profile_s_own_method_and_none_by_another() -> None:

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from fieldnav.evaluation.rendered_rows import Place, Scene
+from fieldnav.evaluation.rendered_scene import Place, Scene
 from fieldnav.evaluation.rowless import KINDS, as_large, kind_figures, reports_row
 from fieldnav.messages import Image, Side
 from fieldnav.perception.perceive import find

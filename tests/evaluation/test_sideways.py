@@ -89,6 +89,26 @@ def test_a_truth_that_cannot_be_read_is_refused_in_one_line(text: str, said: str
     assert str(refused.value).startswith(f"{path}: ") and "\n" not in str(refused.value)
 
 
+def test_a_picture_of_another_size_than_the_truth_is_of_is_refused(tmp_path: Path) -> None:
+    write_sequence(tmp_path / "lateral", count=2)
+    cv2.imwrite(str(tmp_path / "lateral" / "1.png"), np.zeros((48, 64, 3), np.uint8))
+    (sequence,) = sequences_in(tmp_path)
+
+    with pytest.raises(SettingsError, match=r"1\.png: size: 64x48: allowed is 320x240"):
+        sequence.images()
+
+
+def test_photographs_without_a_sequence_taken_sideways_are_left_out_and_the_reason_said(
+    tmp_path: Path,
+) -> None:
+    folder = tmp_path / "near_nadir_jw" / "seq"
+    write_sequence(folder / "any", mode="forward", count=2)
+
+    report = sideways(Plan(tmp_path, quick=True), lambda part, done, steps: None)
+
+    assert [part.reason for part in report.left_out] == [f"{folder} holds no sequence taken sideways"]
+
+
 def counted(*frames: int) -> RowCount:
     passages = tuple(Passage(frame, row, Side.RIGHT) for row, frame in enumerate(frames))
     return RowCount(passages, Side.RIGHT)
@@ -112,6 +132,7 @@ def test_every_showing_ends_where_it_should() -> None:
 
 def test_a_sequence_is_measured_in_every_way_and_the_rest_rendered(tmp_path: Path) -> None:
     write_sequence(tmp_path / "near_nadir_jw" / "seq" / "drawn_lateral")
+    write_sequence(tmp_path / "near_nadir_jw" / "seq" / "short", count=3)
 
     report = sideways(Plan(tmp_path, quick=True), lambda part, done, steps: None)
 
@@ -121,6 +142,8 @@ def test_a_sequence_is_measured_in_every_way_and_the_rest_rendered(tmp_path: Pat
         "crossings within 2 frames (%)",
     ]
     assert all(figure.met for figure in drawn), drawn
+    *counts, in_time = [figure.met for figure in report.figures if figure.case == "sideways, short"]
+    assert all(counts) and in_time is None, "where no row is crossed there is no time to cross it in"
     assert any(figure.case.startswith("sidestep, ") for figure in report.figures)
     assert report.left_out == ()
 

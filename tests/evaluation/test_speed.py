@@ -8,22 +8,13 @@ import numpy as np
 import pytest
 
 from fieldnav.evaluation.benchmark import Plan
-from fieldnav.evaluation.speed import (
-    STATM,
-    STREWN,
-    bare_primitives,
-    crowded_sample,
-    frame_ms,
-    loop_ms,
-    medians_ms,
-    memory_mb,
-    mission_figures,
-    one_thread,
-    rendered_sample,
-    sidestep_figure,
-    strewn_sample,
-    tracking_in,
-)
+from fieldnav.evaluation.speed_frames import STREWN, bare_primitives, frame_ms, tracking_in
+from fieldnav.evaluation.speed_loop import loop_ms
+from fieldnav.evaluation.speed_memory import STATM, memory_figures, memory_mb
+from fieldnav.evaluation.speed_mission import mission_figures
+from fieldnav.evaluation.speed_samples import crowded_sample, rendered_sample, strewn_sample
+from fieldnav.evaluation.speed_sidestep import sidestep_figure
+from fieldnav.evaluation.speed_timing import medians_ms, one_thread
 from fieldnav.perception.plants import find_plants
 from fieldnav.perception.tracking import TrackedRows
 from fieldnav.settings.loading import load_crop
@@ -122,3 +113,13 @@ def test_memory_that_is_taken_shows() -> None:
 
     assert memory_mb() - before_mb == pytest.approx(len(block) / 1e6, rel=0.2)
     assert isfinite(before_mb)
+
+
+def test_memory_that_filled_caches_and_then_leaks_is_told_by_its_leak_alone() -> None:
+    now_s = np.arange(0.0, 901.0)
+    held_mb = np.minimum(100 + now_s, 200) + now_s / 90  # 40 MB an hour
+
+    growth, hour = memory_figures("demo", now_s, held_mb)
+
+    assert growth.value == pytest.approx(40)
+    assert hour.value == pytest.approx(200 + 40) and hour.met

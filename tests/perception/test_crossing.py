@@ -9,15 +9,8 @@ import pytest
 
 from fieldnav.messages import Centres
 from fieldnav.perception.canopy import canopy_plane
-from fieldnav.perception.crossing import (
-    Crossing,
-    accept,
-    begin,
-    candidate_row,
-    follow,
-    new_lane_m,
-    rows_in_image,
-)
+from fieldnav.perception.crossing import accept, follow, new_lane_m
+from fieldnav.perception.passing_rows import Crossing, begin, candidate_row, rows_in_image
 from fieldnav.pinhole import Pinhole
 from fieldnav.settings.crop import CropProfile
 

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from fieldnav.messages import CameraName, Direction, Frame, Side, Steering
-from fieldnav.perception.crossing import begin
+from fieldnav.perception.passing_rows import begin
 from fieldnav.perception.perceive import find
 from fieldnav.perception.tracking import start
 from states.acquiring import CREEP_LIMIT_M, STANDING_LOOK_S, Acquiring

@@ -11,7 +11,7 @@ from fieldnav.perception.comb.row_comb import RowComb
 
 OFFSET_PRIOR = 0.1  # standard deviation of a row from its place, in spacings; drills are not exact
 TURN_PRIOR = 0.1  # the same of half its lean across the height
-WIDTHS = (0.15, 0.12, 0.1)  # standard deviation of the bell about a row in each round, in spacings
+WIDTHS = (0.15, 0.1)  # standard deviation of the bell about a row in each round, in spacings
 LEAST_IN_VIEW = 0.55  # of the height: a row that shows less is not reported
 ALMOST_NOTHING = 1e-6
 MIDDLE = slice(SAMPLES // 2 - SAMPLES // 8, SAMPLES // 2 + SAMPLES // 8 + 1)  # samples on a row
