@@ -41,6 +41,8 @@ def open_camera(name: CameraName, settings: CameraSettings, clock: Callable[[], 
             return RecordedCamera(name, settings, Still(path))
         if path.is_file():
             return RecordedCamera(name, settings, Video(_opened(source)))
+        if path.is_fifo():
+            raise DriverError(f"{source}: is a pipe, which would be waited for without end")
         if not source.isdecimal() and not path.exists():
             raise DriverError(f"{source}: there is no such device, video, picture or folder")
         return LiveCamera(name, settings, _tuned(_opened(source), settings), clock)

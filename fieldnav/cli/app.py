@@ -73,8 +73,10 @@ def run(arguments: list[str] | None = None) -> int:
         return FAILED
     except (KeyboardInterrupt, typer.Abort):
         status = INTERRUPTED  # some versions of typer return it instead
-    except BrokenPipeError:
-        # The reader has gone, as `head` does.
+    except (BrokenPipeError, SystemExit) as left:
+        # The reader has gone, as `head` does; typer makes an exit of it when a command hears of it first.
+        if isinstance(left, SystemExit) and not isinstance(left.__context__, BrokenPipeError):
+            raise
         _drop_output()
         return OK
     except OSError as error:
@@ -89,6 +91,17 @@ def run(arguments: list[str] | None = None) -> int:
     if status == INTERRUPTED:
         print_error("interrupted")
     return status if isinstance(status, int) else OK
+
+
+def _fill_closed_streams() -> None:
+    """Give a stream that the caller has closed something to fail at, or nobody's ear to talk to.
+
+    Else the next file that is opened takes its number, and what is printed goes into it.
+    """
+    if sys.stdout is None:
+        sys.stdout = open(os.devnull, encoding="utf-8")  # noqa: SIM115 - whatever is printed fails
+    if sys.stderr is None:
+        sys.stderr = open(os.devnull, "w", encoding="utf-8")  # noqa: SIM115 - for as long as the process lives
 
 
 def _drop_output() -> None:
@@ -108,6 +121,7 @@ def _usage(error: Exception) -> str:
 
 
 def main() -> None:
+    _fill_closed_streams()
     for stream in (sys.stdout, sys.stderr):
         if isinstance(stream, TextIOWrapper):  # a file's name may hold what the terminal cannot show
             stream.reconfigure(errors="backslashreplace")

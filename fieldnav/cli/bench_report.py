@@ -29,7 +29,7 @@ def markdown(title: str, report: Report) -> str:
     """The same table for a document."""
     rows = [*map(_line, report.figures), *map(_absence, report.left_out)]
     rule = ("---:" if column in FIGURES else "---" for column in COLUMNS)
-    lines = [COLUMNS, rule, *([str(cell) for cell in row] for row in rows)]
+    lines = [COLUMNS, rule, *([str(cell).replace("|", "\\|") for cell in row] for row in rows)]
     return "\n".join([title, "", *(f"| {' | '.join(line)} |" for line in lines)])
 
 

@@ -87,6 +87,8 @@ class Found:
         arguments = get_args(self.kind)
         if get_origin(self.kind) is dict:
             return Found(arguments[1])
+        if get_origin(self.kind) is tuple and arguments[-1] is Ellipsis:
+            return Found(arguments[0])
         if get_origin(self.kind) is tuple and isinstance(part, int) and part < len(arguments):
             return Found(arguments[part])
         return Found(Any)
@@ -126,6 +128,8 @@ def _kind(found: Found) -> str:
         return " or ".join(str(member.value) for member in kind)
     if get_origin(kind) is Literal:
         return " or ".join(str(value) for value in get_args(kind))
+    if get_origin(kind) is tuple and get_args(kind)[-1] is Ellipsis:
+        return f"a list, each of {_kind(Found(get_args(kind)[0]))}"
     if get_origin(kind) is tuple:
         return f"[{', '.join(_kind(Found(argument)) for argument in get_args(kind))}]"
     names = {float: "a number", int: "a whole number", bool: "true or false", str: "text"}

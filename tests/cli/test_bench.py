@@ -9,7 +9,7 @@ import pytest
 
 from fieldnav import __version__
 from fieldnav.cli.app import run
-from fieldnav.cli.bench_report import document, report_table
+from fieldnav.cli.bench_report import document, markdown, report_table
 from fieldnav.cli.checkout import commit, machine
 from fieldnav.cli.console import out
 from fieldnav.evaluation.benchmark import Better, Figure, LeftOut, Report
@@ -75,6 +75,12 @@ def test_a_figure_that_just_misses_its_goal_does_not_read_as_if_it_met_it(
 
 def test_the_table_says_what_was_left_out_and_why(capsys: pytest.CaptureFixture[str]) -> None:
     assert shown(capsys)[-1] == "photographs left out: there is no folder data/[crbd]"
+
+
+def test_a_bar_in_a_name_breaks_no_table_of_a_document() -> None:
+    line = markdown("title", Report((Figure("near view, a|b", "F1", 1.0),))).splitlines()[-1]
+
+    assert line.startswith("| near view, a\\|b | F1 | ")
 
 
 def test_the_document_is_what_programs_expect() -> None:

@@ -1,5 +1,6 @@
 """Cameras that OpenCV opens: the newest frame with its age, never a queue; a source that fails is named."""
 
+import os
 import time
 from collections.abc import Iterator
 from itertools import count
@@ -224,3 +225,10 @@ def test_a_device_is_given_back_when_it_is_closed(live: Live) -> None:
     live.camera.close()
 
     assert live.webcam.released
+
+
+def test_a_pipe_is_no_camera(tmp_path: Path) -> None:
+    os.mkfifo(tmp_path / "pipe")
+
+    with pytest.raises(DriverError, match="is a pipe"):
+        open_camera(CameraName.FRONT, settings(tmp_path / "pipe"), lambda: 0.0)
