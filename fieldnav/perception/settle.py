@@ -46,7 +46,7 @@ def settle(
         if scores.near(middle, lane.slope) * CLEARLY_BETTER >= best:
             offset, slope = middle, lane.slope
     followed = follow(GroundRows(offset, slope, place, np.zeros(len(place)), about_m), plants, crop)
-    for _ in range(ROUNDS - 1):
+    if lane is None:  # what the search alone found may lie a plant's width off
         followed = follow(followed.comb, plants, crop)
     sure = _sure_of(lane, len(place))
     enough = (followed.seen | (sure >= LEAST_CONFIDENCE)).sum() >= max(1, LEAST_SHARE * len(place))
