@@ -30,7 +30,7 @@ def _by_moving_variance(
     cover: Cover, centres: Centres, crop: CropProfile, camera: Pinhole, pose_known: bool
 ) -> Found:
     lines = moving_variance.find_rows(centres, _fitting(crop, camera), camera)
-    lines = settle_lines(lines, None, on_ground(centres, crop, camera), crop, camera)
+    lines = settle_lines(lines, on_ground(centres, crop, camera), crop, camera)
     y = np.array([0.0, camera.height_px - 1.0])
     paths = [np.stack([line_px(line, y, camera), y], axis=-1) for line in lines]
     return Found(lines, np.array(paths).reshape(len(lines), len(y), 2))

@@ -45,6 +45,8 @@ def settle(
         middle = lane.offset_m + lane.slope * about_m
         if scores.near(middle, lane.slope) * CLEARLY_BETTER >= best:
             offset, slope = middle, lane.slope
+        else:
+            lane = None
     followed = follow(GroundRows(offset, slope, place, np.zeros(len(place)), about_m), plants, crop)
     if lane is None:  # what the search alone found may lie a plant's width off
         followed = follow(followed.comb, plants, crop)
@@ -84,23 +86,16 @@ def evidence(comb: GroundRows, plants: GroundPlants, crop: CropProfile, plane: P
 
 
 def settle_lines(
-    lines: tuple[RowLine, ...],
-    heading: float | None,
-    plants: GroundPlants,
-    crop: CropProfile,
-    camera: Pinhole,
+    lines: tuple[RowLine, ...], plants: GroundPlants, crop: CropProfile, camera: Pinhole
 ) -> tuple[RowLine, ...]:
-    """Every line found, fitted to the plants along it and turned towards the common heading, left to right.
-
-    heading: slope of the lane on the ground, where known; else the lines' own average.
-    """
+    """Every line found, fitted to the plants along it and turned to their common heading, left to right."""
     if not lines or not len(plants):
         return lines
     plane = canopy_plane(camera, crop)
     about_m = sum(plane.view_m) / 2
     offset, slope = np.array([plane.row_on_ground(line) for line in lines]).T
     confidence = np.array([line.confidence for line in lines])
-    common = float(np.average(slope, weights=confidence)) if heading is None else heading
+    common = float(np.average(slope, weights=confidence))
     middle = offset + slope * about_m
     comb = GroundRows(0.0, common, middle, np.zeros(len(lines)), about_m)
     for _ in range(ROUNDS):

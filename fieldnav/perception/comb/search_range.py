@@ -22,9 +22,7 @@ UNKNOWN_TILT_RAD = radians(8)
 UNKNOWN_SCALE = 2.2  # times, either way: a camera said to be one metre up may be at two
 
 LOWEST_M, HIGHEST_M = 0.5, 3.0  # a camera that nothing is known of
-VIEW = (
-    0.65  # row spacings across the view at mid-height, times spacing over height, of usual lenses and tilts
-)
+VIEW = 0.65  # usual focal length over the picture's width, times the sine of a usual tilt
 STEEP = np.arange(0.2, 0.66, 0.05)  # convergence of cameras that look down
 OBLIQUE = np.concatenate([np.arange(0.7, 1.2, 0.1), np.arange(1.2, 2.2, 0.05)])
 VANISHING = np.arange(-0.5, 0.51, 0.05)
