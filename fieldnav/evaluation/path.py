@@ -1,5 +1,6 @@
 """The true path of a simulated run and the plants it cost, noted tick by tick beside the mission."""
 
+from array import array
 from dataclasses import dataclass, field
 from math import cos, hypot, sin
 
@@ -15,13 +16,20 @@ CONTACT_HALF_M = 0.06
 STEM_M = 0.01
 
 
+def _numbers() -> "array[float]":
+    return array("d")
+
+
 @dataclass(slots=True)
 class TruePath:
-    """Where the robot was at each tick, in which state, and what it believed of lane and rows."""
+    """Where the robot was at each tick, in which state, and what it believed of lane and rows.
 
-    x_m: list[float] = field(default_factory=list)
-    y_m: list[float] = field(default_factory=list)
-    heading_rad: list[float] = field(default_factory=list)
+    Bare numbers are kept in arrays: an hour has 180,000 ticks.
+    """
+
+    x_m: "array[float]" = field(default_factory=_numbers)
+    y_m: "array[float]" = field(default_factory=_numbers)
+    heading_rad: "array[float]" = field(default_factory=_numbers)
     states: list[StatePath] = field(default_factory=list)
     lanes: list[int] = field(default_factory=list)
     rows_passed: list[int] = field(default_factory=list)

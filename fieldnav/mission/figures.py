@@ -1,7 +1,6 @@
 """The figures of a run, counted as it goes."""
 
 from collections import Counter
-from itertools import pairwise
 
 from fieldnav.journal.summary import Headland, Lanes, Summary, Switches, Truth
 from fieldnav.mission.tick import Tick
@@ -17,7 +16,8 @@ class Figures:
     def __init__(self, lanes: int) -> None:
         self._lanes = lanes
         self._events: Counter[Event] = Counter()
-        self._path: list[tuple[float, float]] = []
+        self._last_m: tuple[float, float] | None = None
+        self._distance_m = 0.0
         self._started_s: float | None = None
         self._now_s = 0.0
         self._finished = False
@@ -27,7 +27,9 @@ class Figures:
         if self._started_s is None:
             self._started_s = tick.now_s
         self._now_s = tick.now_s
-        self._path.append((tick.forward_m, tick.sideways_m))
+        before_m, self._last_m = self._last_m, (tick.forward_m, tick.sideways_m)
+        if before_m is not None:
+            self._distance_m += abs(tick.forward_m - before_m[0]) + abs(tick.sideways_m - before_m[1])
         if tick.warning:
             self._warnings.append(tick.warning)
         if tick.change is not None:
@@ -38,11 +40,10 @@ class Figures:
         """The figures so far."""
         events = self._events
         duration_s = self._now_s - (self._started_s or 0.0)
-        distance_m = sum(abs(b[0] - a[0]) + abs(b[1] - a[1]) for a, b in pairwise(self._path))
         return Summary(
             completed=self._finished,
             lanes=Lanes(done=events[Event.LANE_LEFT] + events[Event.LAST_LANE_LEFT], total=self._lanes),
-            distance_m=round(distance_m, METRES_DIGITS),
+            distance_m=round(self._distance_m, METRES_DIGITS),
             duration_s=round(duration_s, SECONDS_DIGITS),
             wall_s=round(wall_s, SECONDS_DIGITS),
             realtime_factor=round(duration_s / wall_s, SECONDS_DIGITS),
