@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from fieldnav.cli.camera_option import RobotOption
 from fieldnav.cli.console import out, table
 from fieldnav.cli.part_progress import watched
 from fieldnav.cli.picture_limit import limit_pictures
@@ -40,12 +41,7 @@ def count(
     crop: Annotated[
         str | None, typer.Option(help="Crop profile; name or path. Without one: rows of any spacing.")
     ] = None,
-    robot: Annotated[
-        str | None,
-        typer.Option(
-            help="Robot whose front camera took them; name or path. Without one: the camera is estimated."
-        ),
-    ] = None,
+    robot: RobotOption = None,
     as_json: Annotated[bool, typer.Option("--json", help="Print one JSON object, for programs.")] = False,
 ) -> None:
     """Count the crop rows that pass while the robot moves sideways.

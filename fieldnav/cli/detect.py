@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from fieldnav.cli.camera_option import RobotOption
 from fieldnav.cli.picture_limit import limit_pictures
 
 if TYPE_CHECKING:
@@ -23,12 +24,7 @@ def detect(
             help=f"Crop profile; name or path. Without one: rows of any spacing; with --robot: {USUAL_CROP}."
         ),
     ] = None,
-    robot: Annotated[
-        str | None,
-        typer.Option(
-            help="Robot whose front camera took them; name or path. Without one: the camera is estimated."
-        ),
-    ] = None,
+    robot: RobotOption = None,
     overlay: Annotated[
         Path | None, typer.Option(help="Folder for pictures with what was found drawn in.", metavar="DIR")
     ] = None,

@@ -22,11 +22,3 @@ def lies_in(centres: Centres, camera: Pinhole, part: ImagePart) -> NDArray[np.bo
     if part is ImagePart.WHOLE:
         return np.ones(len(centres), dtype=bool)
     return np.asarray((centres.position_px[:, 1] < camera.centre_y_px) == (part is ImagePart.TOP))
-
-
-def in_part(centres: Centres, camera: Pinhole, part: ImagePart) -> Centres:
-    """The plants whose centre lies in that part of the image."""
-    keep = lies_in(centres, camera, part)
-    return Centres(
-        centres.position_px[keep], centres.area_px[keep], centres.top_px[keep], centres.bottom_px[keep]
-    )

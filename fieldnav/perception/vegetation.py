@@ -44,14 +44,6 @@ class Cover:
         return np.asarray(cv2.threshold(self.index, self.threshold, FULL_SCALE, cv2.THRESH_BINARY)[1])
 
     @property
-    def whole_mask(self) -> Mask:
-        """Vegetation at the image's own size."""
-        size = (self.width_px, self.height_px)
-        if 0 in size:
-            return np.zeros(size[::-1], np.uint8)
-        return np.asarray(cv2.resize(self.mask, size, interpolation=cv2.INTER_NEAREST), np.uint8)
-
-    @property
     def strength(self) -> NDArray[np.uint8]:
         """How surely and how densely each pixel is vegetation, 0 to 255, at the working size.
 

@@ -9,10 +9,20 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from fieldnav.perception.plants import find_plants, plants_in
-from fieldnav.perception.vegetation import excess_green, vegetation_of
+from fieldnav.perception.vegetation import Cover, excess_green, vegetation_of
 from fieldnav.settings.crop import Vegetation
 
 SIZE = (720, 1280, 3)
+
+
+def whole_mask(cover: Cover) -> np.ndarray:
+    """The vegetation at the image's own size."""
+    size = (cover.width_px, cover.height_px)
+    return (
+        np.zeros(size[::-1], np.uint8)
+        if 0 in size
+        else cv2.resize(cover.mask, size, interpolation=cv2.INTER_NEAREST)
+    )
 
 
 def uniform(colour: tuple[int, int, int]) -> np.ndarray:
@@ -39,7 +49,7 @@ def test_a_picture_without_green_has_no_vegetation(
     image = np.clip(uniform(colour) + grain, 0, 255).astype(np.uint8)
 
     cover = vegetation_of(image, drawn.beet.vegetation)
-    centres, mask = plants_in(cover, drawn.beet.vegetation, drawn.camera), cover.whole_mask
+    centres, mask = plants_in(cover, drawn.beet.vegetation, drawn.camera), whole_mask(cover)
 
     assert len(centres) == 0
     assert (mask > 0).mean() < 0.01
@@ -52,7 +62,7 @@ def test_a_discs_centre_is_found_within_a_pixel(drawn: SimpleNamespace) -> None:
         cv2.circle(image, tuple(np.round(place * 16).astype(int).tolist()), 25 * 16, (50, 150, 70), -1, 16, 4)
 
     cover = vegetation_of(image, drawn.beet.vegetation)
-    centres, mask = plants_in(cover, drawn.beet.vegetation, drawn.camera), cover.whole_mask
+    centres, mask = plants_in(cover, drawn.beet.vegetation, drawn.camera), whole_mask(cover)
 
     assert centres.position_px == pytest.approx(places, abs=0.5)
     assert centres.area_px == pytest.approx(np.full(3, np.pi * 25**2), rel=0.06)
@@ -103,7 +113,7 @@ def test_the_floor_holds_when_otsu_would_split_bare_soil(drawn: SimpleNamespace)
 )
 def test_what_is_no_picture_holds_no_plants(drawn: SimpleNamespace, image: np.ndarray) -> None:
     cover = vegetation_of(image, Vegetation())
-    centres, mask = plants_in(cover, Vegetation(), drawn.camera), cover.whole_mask
+    centres, mask = plants_in(cover, Vegetation(), drawn.camera), whole_mask(cover)
 
     assert len(centres) == 0
     assert mask.shape == image.shape[:2]

@@ -16,7 +16,8 @@ MEAN_SHIFT = 1.6  # a step towards the mean under a bell goes short by about thi
 DAMPING = 0.9
 CENTRAL = 2.0  # spacings from the picture's middle at which a row counts two thirds: the robot drives there
 ALMOST_NOTHING = 1e-9
-_ACROSS: Floats = np.linspace(-REACH, REACH, SAMPLES)
+ACROSS: Floats = np.linspace(-REACH, REACH, SAMPLES)
+"""Where the samples lie beside a tooth, in spacings."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -54,7 +55,7 @@ def teeth_of(comb: RowComb, bands: Bands, shift: Floats | float = 0.0) -> Teeth:
     """What stands about the comb's teeth; shift: rows' own displacements in spacings, shape (rows, bands)."""
     numbers = comb.numbers.astype(float)
     place = comb.middle + (numbers[:, None] + shift) * comb.spacing
-    value, inside = bands.sample(place[:, :, None] + _ACROSS * comb.spacing[:, None])
+    value, inside = bands.sample(place[:, :, None] + ACROSS * comb.spacing[:, None])
     between = np.minimum(value[:, :, :EDGE].mean(axis=-1), value[:, :, -EDGE:].mean(axis=-1))
     profile = np.maximum(value - between[:, :, None], 0)
     whole = (inside.mean(axis=-1) > 1 - EDGE / SAMPLES) & comb.usable
@@ -67,9 +68,9 @@ def off_centre(teeth: Teeth, width: float) -> tuple[Floats, Floats]:
     width: standard deviation of the bell that weighs it. A tooth's weight saturates, so that lush plants
     count little more than ordinary ones.
     """
-    bell = teeth.profile * np.exp(-0.5 * (_ACROSS / width) ** 2)
+    bell = teeth.profile * np.exp(-0.5 * (ACROSS / width) ** 2)
     mass = bell.sum(axis=-1)
-    off = MEAN_SHIFT * (bell * _ACROSS).sum(axis=-1) / np.maximum(mass, ALMOST_NOTHING)
+    off = MEAN_SHIFT * (bell * ACROSS).sum(axis=-1) / np.maximum(mass, ALMOST_NOTHING)
     mass = mass * teeth.whole
     usual = float(np.median(mass[mass > 0])) if (mass > 0).any() else 1.0
     return off, mass / (mass + usual)

@@ -6,7 +6,7 @@ import numpy as np
 
 from fieldnav.messages import Floats
 from fieldnav.perception.comb.bands import LEVEL, STRETCHES, Bands
-from fieldnav.perception.comb.refinement import EDGE, SAMPLES, off_centre, teeth_of
+from fieldnav.perception.comb.refinement import ACROSS, EDGE, SAMPLES, off_centre, teeth_of
 from fieldnav.perception.comb.row_comb import RowComb
 
 OFFSET_PRIOR = 0.1  # standard deviation of a row from its place, in spacings; drills are not exact
@@ -66,8 +66,7 @@ def _line_through(shift: Floats, weight: Floats, lean: Floats) -> Floats:
 
 def _standing(comb: RowComb, bands: Bands, place: Floats) -> tuple[Floats, Floats]:
     """Evenness and stand of rows."""
-    across = np.linspace(-1 / 2, 1 / 2, SAMPLES) * comb.spacing[:, None]
-    value, inside = bands.sample(place[:, :, None] + across)
+    value, inside = bands.sample(place[:, :, None] + ACROSS * comb.spacing[:, None])
     on = value[:, :, MIDDLE].mean(axis=-1)
     between = (value[:, :, :EDGE].mean(axis=-1) + value[:, :, -EDGE:].mean(axis=-1)) / 2
     seen = (inside[:, :, SAMPLES // 2] & comb.usable).astype(float)
