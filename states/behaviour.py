@@ -5,6 +5,7 @@ from dataclasses import dataclass, field, replace
 from typing import Protocol
 
 from fieldnav.messages import CameraName, Centres, Evidence, Frame, Motion, RowLine, Side
+from fieldnav.odometry import Pose
 from fieldnav.perception.tracking import Feature
 from fieldnav.pinhole import Pinhole
 from fieldnav.settings.crop import CropProfile
@@ -17,7 +18,9 @@ class Observation:
 
     frames: those that are new since the last tick, of the cameras the behaviour asked for.
     forward_m, sideways_m: what the wheels have travelled since the run began, signed in the robot's axes;
-    used to bound a manoeuvre and to judge over distance, never to navigate.
+    used to bound a manoeuvre and to judge over distance.
+    pose: where the wheels say that the robot is, by dead reckoning since the run began; exposed: where it was
+    when each of the frames was taken. They carry what was seen along for a few metres, no further.
     """
 
     now_s: float
@@ -27,6 +30,8 @@ class Observation:
     stopped: bool
     wheels_aligned: bool
     wheels_ready: bool
+    pose: Pose = field(default_factory=Pose)
+    exposed: Mapping[CameraName, Pose] = field(default_factory=dict)
 
 
 @dataclass(frozen=True, slots=True)

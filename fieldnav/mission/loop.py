@@ -121,6 +121,8 @@ class Mission:
             stopped=self._travel.standing,
             wheels_aligned=self._gate.aligned,
             wheels_ready=self._wheels.ready,
+            pose=self._travel.pose,
+            exposed={name: self._travel.pose_at(frame.stamp_s) for name, frame in frames.items()},
         )
 
     def _go(self, now_s: float, step: Step) -> Change:

@@ -4,16 +4,19 @@ from math import hypot
 
 from fieldnav.control.kinematics import body_twist
 from fieldnav.messages import STANDSTILL, Twist, WheelReport, WheelSetpoint
+from fieldnav.odometry import Pose, Track
 from fieldnav.settings.robot import Robot
 
 STANDING_MPS = 0.01
 """Slower than this the robot stands; one motor revolution a minute is 0.5 mm/s. Our choice."""
 STANDING_RPS = 0.01
 """The same for turning, half a degree a second."""
+KEPT_POSES = 100
+"""Two seconds of ticks: no frame that is older is looked at."""
 
 
 class Travel:
-    """Adds up the modules' reports: to bound manoeuvres and to judge over distance, never to navigate."""
+    """Adds up the modules' reports: to bound manoeuvres and to carry what was seen along for a few metres."""
 
     def __init__(self, robot: Robot) -> None:
         self._robot = robot
@@ -22,6 +25,12 @@ class Travel:
         self.twist: Twist = STANDSTILL
         self.forward_m = 0.0
         self.sideways_m = 0.0
+        self.pose = Pose()
+        self._track = Track(KEPT_POSES)
+
+    def pose_at(self, stamp_s: float) -> Pose:
+        """Where the wheels said that the robot was, at a time not long ago."""
+        return self._track.at(stamp_s)
 
     @property
     def standing(self) -> bool:
@@ -43,3 +52,5 @@ class Travel:
         self.twist = body_twist(states, self._robot.geometry)
         self.forward_m += self.twist.vx_mps * dt_s
         self.sideways_m += self.twist.vy_mps * dt_s
+        self.pose = self.pose.moved(self.twist, dt_s)
+        self._track.add(now_s, self.pose)

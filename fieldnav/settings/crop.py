@@ -81,6 +81,19 @@ class Speeds(Settings):
     sidestep_mps: float = Field(default=0.15, gt=0, le=0.5)
 
 
+class ControlLaw(Enum):
+    """How a lane is followed: by the paper's visual servoing, or along its path estimated in metres."""
+
+    PAPER = "paper"
+    PATH_FOLLOWING = "path_following"
+
+
+class Control(Settings):
+    """Following the lane's path."""
+
+    law: ControlLaw = ControlLaw.PATH_FOLLOWING
+
+
 class Servoing(Settings):
     """How fast the visual servoing (paper III-B) brings the robot onto the lane, per metre driven."""
 
@@ -113,5 +126,6 @@ class CropProfile(Settings):
     recognition: Recognition = Recognition()
     switching: Switching = Switching()
     speeds: Speeds = Speeds()
+    control: Control = Control()
     servoing: Servoing = Servoing()
     tuned_for: str = Field(min_length=1, description="the range of conditions this profile was tuned for")

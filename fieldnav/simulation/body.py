@@ -1,7 +1,6 @@
 """How the robot's body moves on soil when its wheels turn: the simulation's ground truth of motion."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 from math import cos, sin
 
 import numpy as np
@@ -11,26 +10,6 @@ from fieldnav.settings.robot import Geometry
 
 SCRUB = 0.8
 """Sideways stiffness of a wheel on loose soil against its rolling one; the driver takes them for alike."""
-
-
-@dataclass(frozen=True, slots=True)
-class Pose:
-    """Where the robot's centre is in the world, and its heading counter-clockwise from the world's x."""
-
-    x_m: float
-    y_m: float
-    heading_rad: float
-
-    def moved(self, twist: Twist, dt_s: float) -> "Pose":
-        """The pose after driving a constant twist; exact to second order by turning half way first."""
-        turn = twist.yaw_rate_rps * dt_s
-        heading = self.heading_rad + turn / 2
-        ahead, left = twist.vx_mps * dt_s, twist.vy_mps * dt_s
-        return Pose(
-            self.x_m + ahead * cos(heading) - left * sin(heading),
-            self.y_m + ahead * sin(heading) + left * cos(heading),
-            self.heading_rad + turn,
-        )
 
 
 def body_motion(wheels: Mapping[Wheel, WheelSetpoint], geometry: Geometry, slip: float) -> Twist:

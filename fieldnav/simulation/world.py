@@ -7,9 +7,10 @@ from math import atan2, cos, hypot, radians, sin
 from drivers.simulated_modules import SimulatedModules
 from drivers.simulated_motion import ModuleErrors
 from fieldnav.messages import Twist, Wheel, WheelSetpoint
+from fieldnav.odometry import Pose
 from fieldnav.settings.field import FieldSettings, WheelErrors
 from fieldnav.settings.robot import Robot
-from fieldnav.simulation.body import Pose, body_motion
+from fieldnav.simulation.body import body_motion
 from fieldnav.simulation.plan import FieldPlan
 from fieldnav.simulation.shaking import Attitude, Shaking
 from fieldnav.simulation.streams import Stream, random_stream
