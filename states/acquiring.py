@@ -1,10 +1,14 @@
 """Follow.Acquiring: find the lane's rows in the leading camera before following them."""
 
+from dataclasses import replace
+
+from fieldnav.estimation.lane_end import LaneEnd
 from fieldnav.messages import CameraName, Direction, Evidence, Motion, Twist
 from fieldnav.perception.perceive import find
-from fieldnav.perception.tracking import start
 from states.agreement import Agreement
 from states.behaviour import Observation, Sight, Step, Task
+from states.guides import guide_for, steering_of
+from states.lane_watch import driven_m
 from states.memory import LaneMemory
 from states.names import Event
 
@@ -42,18 +46,19 @@ class Acquiring:
         sight = Sight(frame, found.lane.rows if found.lane else found.lines, found.centres)
         motion = self._creep(seen.now_s - entered_s)
         if agreed and found.lane:
-            self._lane.leading = start(found.lane, frame.stamp_s)
+            begin_m = driven_m(seen, self._direction) - CREEP_LIMIT_M
+            end = LaneEnd(self._task.crop, begin_m, self._lane.expected_m)
+            self._lane.enter(guide_for(self._task, self._direction), end)
+            self._lane.guide.begin(found.lane, frame, seen.exposed_at(frame))
             self._lane.counts[found.lane.rows_seen] += 1
-            if self._lane.entered_m is None:
-                self._lane.entered_m = seen.forward_m
-            self._lane.under_way = True
             return Step(motion, Event.ROWS_FOUND, evidence, sight)
         if crept_m > CREEP_LIMIT_M:
-            return Step(Motion(), Event.FAIL, evidence, sight, "no rows found")
+            return Step(replace(motion, twist=Twist()), Event.FAIL, evidence, sight, "no rows found")
         self._step = Step(motion, None, evidence, sight)
         return self._step
 
     def _creep(self, looked_s: float) -> Motion:
+        steering = steering_of(self._task.crop)
         if not self._lane.under_way and looked_s < STANDING_LOOK_S:
-            return Motion()
-        return Motion(Twist(vx_mps=self._direction.sign * self._task.crop.speeds.acquire_mps))
+            return Motion(steering=steering)
+        return Motion(Twist(vx_mps=self._direction.sign * self._task.crop.speeds.acquire_mps), steering)

@@ -33,6 +33,10 @@ class Observation:
     pose: Pose = field(default_factory=Pose)
     exposed: Mapping[CameraName, Pose] = field(default_factory=dict)
 
+    def exposed_at(self, frame: Frame) -> Pose:
+        """Where the robot was when one of the frames was taken."""
+        return self.exposed.get(frame.camera, self.pose)
+
 
 @dataclass(frozen=True, slots=True)
 class Sight:
@@ -54,9 +58,13 @@ class Step:
     sight: Sight | None = None
     reason: str = ""
 
-    def continued(self) -> "Step":
-        """The same motion at a tick without a new frame."""
-        return replace(self, event=None, evidence=(), sight=None)
+    def continued(self, motion: Motion | None = None) -> "Step":
+        """The same at a tick without a new frame, with the same motion unless another is given."""
+        return replace(self, motion=motion or self.motion, event=None, evidence=(), sight=None)
+
+    def with_motion(self, motion: Motion) -> "Step":
+        """The same with another motion."""
+        return replace(self, motion=motion)
 
 
 @dataclass(frozen=True, slots=True)

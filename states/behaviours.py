@@ -41,7 +41,7 @@ class Behaviours:
     def enter(self, change: Change) -> None:
         """Take up the state that the machine has gone to."""
         if change.event is Event.LANE_CENTRED:
-            self.lane = LaneMemory(number=self.lane.number + 1)
+            self.lane = self.lane.after()
         self.current = self._make(change.target)
 
     def _make(self, leaf: Path) -> Behaviour:

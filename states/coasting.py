@@ -1,13 +1,13 @@
-"""Follow.Coasting: rows lost for a moment; straight on, slowly and boundedly, until they are found again."""
+"""Follow.Coasting: rows lost for a moment; on along the lane, boundedly, until they are found again."""
 
-from fieldnav.messages import CameraName, Direction, Evidence, Motion, Twist
-from fieldnav.perception.image_halves import ImagePart
-from fieldnav.perception.perceive import find
-from fieldnav.perception.row_end import crop_in_rows
-from fieldnav.perception.tracking import start
+from dataclasses import replace
+
+from fieldnav.messages import CameraName, Direction, Evidence, Frame, Twist
+from fieldnav.perception.perceive import View, find
 from states.agreement import Agreement
 from states.behaviour import Observation, Sight, Step, Task
-from states.emptiness import Emptiness
+from states.guide import Look
+from states.lane_watch import LANE_ENDED, driven_m, end_evidence, watch_end
 from states.memory import LaneMemory
 from states.names import Event
 
@@ -15,44 +15,63 @@ AGREEING_FRAMES = 3
 
 
 class Coasting:
-    """Looks for the lane afresh in every frame; gives up after the longest gap the profile allows."""
+    """Looks for plants where the rows must be, and for the lane afresh; gives up after the longest gap."""
 
     def __init__(self, task: Task, direction: Direction, lane: LaneMemory) -> None:
         self.cameras: tuple[CameraName, ...] = (direction.leading,)
         self._task, self._direction, self._lane = task, direction, lane
         self._agreement = Agreement(AGREEING_FRAMES)
-        self._end = Emptiness(task.crop.row_end.confirm_s, task.crop.row_end.confirm_m)
+        self._seen_again = 0
         self._entered_m: float | None = None
-        self._step = Step(Motion(Twist(vx_mps=direction.sign * task.crop.speeds.acquire_mps)))
+        self._step = Step()
 
     def step(self, seen: Observation) -> Step:
         if self._entered_m is None:
-            self._entered_m = seen.forward_m
+            self._entered_m = driven_m(seen, self._direction)
         frame = seen.frames.get(self._direction.leading)
-        if frame is None:
-            return self._step.continued()
-        found = find(frame.image, self._task.crop, self._task.cameras[frame.camera])
+        if frame is not None:
+            self._step = self._judge(frame, seen)
+        speed_mps = self._task.crop.speeds.acquire_mps
+        motion = self._lane.guide.motion(seen.pose, speed_mps, self._direction.leading)
+        if self._step.event is Event.FAIL:
+            motion = replace(motion, twist=Twist())
+        return self._step.with_motion(motion) if frame is not None else self._step.continued(motion)
+
+    def _judge(self, frame: Frame, seen: Observation) -> Step:
+        crop, guide = self._task.crop, self._lane.guide
+        found = find(frame.image, crop, self._task.cameras[frame.camera])
+        look = guide.look(frame, found.centres, seen.exposed_at(frame))
+        end = watch_end(self._lane, frame, found.centres, look.rows, seen, self._direction, self._task)
+        self._seen_again = self._seen_again + 1 if 2 * look.rows_seen >= crop.rows.per_lane else 0
         agreed = self._agreement.add(found.lane)
-        coasted_m = abs(seen.forward_m - self._entered_m)
-        limit_m = self._task.crop.row_end.longest_gap_m
-        crop, camera = self._task.crop, self._task.cameras[frame.camera]
-        assert self._lane.leading, "the rows were followed before they were lost"
-        ahead = crop_in_rows(found.centres, self._lane.leading.rows, crop, camera, ImagePart.TOP)
-        ended = self._end.add(ahead > crop.row_end.least_crop, frame.stamp_s, seen.forward_m)
+        coasted_m = driven_m(seen, self._direction) - (self._entered_m or 0.0)
         evidence = (
+            *end_evidence(end, LANE_ENDED),
+            Evidence("frames that show the rows again", self._seen_again, AGREEING_FRAMES, "frames"),
             *self._agreement.evidence(),
-            *self._end.evidence("top half"),
-            Evidence("coasted", coasted_m, limit_m, "m"),
+            Evidence("coasted", coasted_m, crop.row_end.longest_gap_m, "m"),
+            *guide.evidence(seen.pose),
         )
-        sight = Sight(frame, found.lane.rows if found.lane else found.lines, found.centres)
+        event, reason = self._event(found, frame, seen, agreed)
+        if event is None and end.probability >= LANE_ENDED:
+            event = Event.LANE_ENDED
+        if event is None:
+            reason = guide.lost(seen.pose) or self._too_long(coasted_m)
+            event = Event.FAIL if reason else None
+        return Step(event=event, evidence=evidence, sight=self._sight(frame, found, look), reason=reason)
+
+    def _event(self, found: View, frame: Frame, seen: Observation, agreed: bool) -> tuple[Event | None, str]:
+        if self._seen_again >= AGREEING_FRAMES:
+            return Event.ROWS_FOUND, ""
         if agreed and found.lane:
-            self._lane.leading = start(found.lane, frame.stamp_s)
-            return Step(self._step.motion, Event.ROWS_FOUND, evidence, sight)
-        if ended:
-            return Step(self._step.motion, Event.LANE_ENDED, evidence, sight)
-        if coasted_m > limit_m:
-            return Step(
-                Motion(), Event.FAIL, evidence, sight, "rows lost for longer than the profile's longest gap"
-            )
-        self._step = Step(self._step.motion, None, evidence, sight)
-        return self._step
+            self._lane.guide.begin(found.lane, frame, seen.exposed_at(frame))
+            return Event.ROWS_FOUND, "the lane was found afresh"
+        return None, ""
+
+    def _too_long(self, coasted_m: float) -> str:
+        if coasted_m > self._task.crop.row_end.longest_gap_m:
+            return "rows lost for longer than the profile's longest gap"
+        return ""
+
+    def _sight(self, frame: Frame, found: View, look: Look) -> Sight:
+        return Sight(frame, look.rows, found.centres)

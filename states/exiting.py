@@ -1,131 +1,91 @@
 """Exit: drive out of the lane guided by the trailing camera (paper phase 2)."""
 
-from math import degrees
-
-import numpy as np
-
-from fieldnav.control.servoing import yaw_rate
+from fieldnav.estimation.lane_end import LaneEndView
 from fieldnav.messages import CameraName, Centres, Direction, Evidence, Frame, Motion, Twist
-from fieldnav.perception.canopy import canopy_plane
-from fieldnav.perception.image_halves import ImagePart
-from fieldnav.perception.perceive import lane_of
-from fieldnav.perception.plants import plants_in
-from fieldnav.perception.row_end import crop_in_rows, nearest_crop_m
-from fieldnav.perception.tracking import TrackedRows, feature, start, track
-from fieldnav.perception.vegetation import Cover, vegetation_of
-from fieldnav.pinhole import Pinhole
-from states.agreement import Agreement
+from fieldnav.perception.plants import find_plants
 from states.behaviour import Observation, Sight, Step, Task
-from states.emptiness import Emptiness
+from states.guides import steering_of
+from states.lane_watch import SURE, driven_m, end_evidence, watch_end
 from states.memory import LaneMemory
 from states.names import Event
 
-AGREEING_FRAMES = 2
-FRAMES_TO_RETURN = 4
-"""So many frames of the leading camera must agree that rows have come again: the end was a gap."""
-
-
-SLOWEST_MPS = 0.08
-APPROACH_PER_S = 1.0
+SLOWEST_MPS, APPROACH_PER_S = 0.08, 1.0
+"""Speed at the place to stop, and how much faster for each metre before it."""
+AGAIN = 0.5
+"""Probability of an end below which it was a gap."""
+BEYOND_M = 1.0
+"""Past the place to stop, a robot that is still not sure of the end goes no further than this."""
 
 
 class Exiting:
-    """Steers by the trailing camera until its lower half is empty; follows again if rows come again."""
+    """Steers by the trailing camera to just past the last plants; follows again if crop comes again."""
 
     def __init__(self, task: Task, direction: Direction, lane: LaneMemory) -> None:
         self.cameras: tuple[CameraName, ...] = (direction.leading, direction.trailing)
         self._task, self._direction, self._lane = task, direction, lane
-        self._found = Agreement(AGREEING_FRAMES)
-        self._again = Agreement(FRAMES_TO_RETURN)
-        self._end = Emptiness(task.crop.row_end.exit_confirm_s, task.crop.row_end.exit_confirm_m)
-        self._entered_m: float | None = None
-        lane.trailing = None
-        self._step = Step(self._ahead(0.0, task.crop.speeds.exit_mps))
+        self._end: LaneEndView = lane.end.judge()
+        self._step = Step()
 
     def step(self, seen: Observation) -> Step:
-        if self._entered_m is None:
-            self._entered_m = seen.forward_m
         leading, trailing = (seen.frames.get(name) for name in self.cameras)
-        if leading is not None and self._rows_again(leading):
-            self._lane.under_way = True
-            reason = "rows come again: it was a gap"
-            return Step(
-                self._step.motion, Event.ROWS_SEEN_AGAIN, self._again.evidence(), Sight(leading), reason
-            )
-        if trailing is not None:
-            self._step = self._guided(trailing, seen, abs(seen.forward_m - self._entered_m))
-            return self._step
-        return self._step.continued()
+        step = self._step.continued()
+        if leading is not None:
+            step = self._ahead(leading, seen)
+        if trailing is not None and step.event is None:
+            step = self._behind(trailing, seen)
+        self._step = step.with_motion(self._motion(seen, step))
+        return self._step
 
-    def _rows_again(self, frame: Frame) -> bool:
-        camera = self._task.cameras[frame.camera]
-        crop = self._task.crop
-        ahead = vegetation_of(frame.image, crop.vegetation).part(ImagePart.TOP)
-        lane = lane_of(ahead, plants_in(ahead, crop.vegetation, camera), crop, camera)
-        enough = lane is not None and 2 * lane.rows_seen > self._task.crop.rows.per_lane
-        return self._again.add(lane if enough else None)
-
-    def _guided(self, frame: Frame, seen: Observation, driven_m: float) -> Step:
-        crop, camera = self._task.crop, self._task.cameras[frame.camera]
-        cover = vegetation_of(frame.image, crop.vegetation)
-        centres = plants_in(cover, crop.vegetation, camera)
-        rows = self._follow(cover, centres, frame.stamp_s, camera)
-        # From where the leading view's middle meets the last plants to where the trailing view's does.
-        whole_m = sum(camera.view_m)
-        if rows is None:
-            return self._unguided(frame, centres, driven_m, whole_m)
-        speed_mps = self._speed_mps(rows, centres, camera)
-        line = feature(rows.rows, camera)
-        turn_rps = yaw_rate(line, camera, -speed_mps, crop.servoing.leaving)
-        behind = crop_in_rows(centres, rows.rows, crop, camera, ImagePart.BOTTOM)
-        ended = self._end.add(behind > crop.row_end.least_crop, frame.stamp_s, seen.forward_m)
-        evidence = (
-            Evidence("crop in the bottom half", behind, crop.row_end.least_crop, "rows"),
-            *self._end.evidence("bottom half"),
-            Evidence("driven out", driven_m, whole_m / 2, "m"),
-            Evidence("feature offset", line.offset_px, None, "px"),
-            Evidence("feature angle", degrees(line.theta_rad), None, "deg"),
+    def _ahead(self, frame: Frame, seen: Observation) -> Step:
+        """What the leading camera says: nothing more, or crop again."""
+        centres, rows = self._plants(frame), self._lane.guide.rows(frame.camera, seen.exposed_at(frame))
+        self._end = watch_end(self._lane, frame, centres, rows, seen, self._direction, self._task)
+        if self._end.probability >= AGAIN:
+            return self._step.continued()
+        evidence = end_evidence(self._end, AGAIN)
+        reason = "crop comes again: it was a gap"
+        return Step(
+            event=Event.ROWS_SEEN_AGAIN, evidence=evidence, sight=Sight(frame, rows, centres), reason=reason
         )
-        sight = Sight(frame, rows.rows, centres, line)
-        if driven_m > 2 * whole_m:
-            return Step(Motion(), Event.FAIL, evidence, sight, "crop behind does not end")
-        if not (ended and driven_m > whole_m / 2):
-            return Step(self._ahead(turn_rps, speed_mps), None, evidence, sight)
-        entered_m = self._lane.entered_m
-        if entered_m is not None:
-            evidence = (
-                *evidence,
-                Evidence("driven in this lane", abs(seen.forward_m - entered_m), None, "m"),
+
+    def _behind(self, frame: Frame, seen: Observation) -> Step:
+        centres, guide = self._plants(frame), self._lane.guide
+        look = guide.look(frame, centres, seen.exposed_at(frame))
+        self._lane.trailing = look if look.rows else self._lane.trailing
+        self._end = watch_end(self._lane, frame, centres, look.rows, seen, self._direction, self._task)
+        left_m = self._left_m(seen)
+        evidence = (
+            *end_evidence(self._end, SURE),
+            Evidence("to the place to stop", left_m, 0.0, "m"),
+            Evidence("length of this lane", self._lane.end.length_m(), None, "m"),
+            Evidence("rows seen behind", look.rows_seen, None, "rows"),
+            *guide.evidence(seen.pose),
+        )
+        sight = Sight(frame, look.rows, centres, guide.feature)
+        if left_m > 0:
+            return Step(evidence=evidence, sight=sight)
+        if self._end.probability >= SURE:
+            last = self._lane.number >= self._task.lanes
+            return Step(
+                event=Event.LAST_LANE_LEFT if last else Event.LANE_LEFT, evidence=evidence, sight=sight
             )
-        last = self._lane.number >= self._task.lanes
-        return Step(Motion(), Event.LAST_LANE_LEFT if last else Event.LANE_LEFT, evidence, sight)
+        if left_m < -BEYOND_M:
+            reason = "no crop either way, and yet the lane should not end here"
+            return Step(event=Event.FAIL, evidence=evidence, sight=sight, reason=reason)
+        return Step(evidence=evidence, sight=sight)
 
-    def _unguided(self, frame: Frame, centres: Centres, driven_m: float, whole_m: float) -> Step:
-        """Straight on until the trailing camera has found the rows, but no further than the exit is long."""
-        evidence = (Evidence("driven out unguided", driven_m, whole_m, "m"),)
-        sight = Sight(frame, (), centres)
-        if driven_m > whole_m:
-            return Step(Motion(), Event.FAIL, evidence, sight, "no rows behind to leave by")
-        return Step(self._ahead(0.0, self._task.crop.speeds.exit_mps), None, evidence, sight)
+    def _plants(self, frame: Frame) -> Centres:
+        return find_plants(frame.image, self._task.crop.vegetation, self._task.cameras[frame.camera])
 
-    def _follow(self, cover: Cover, centres: Centres, stamp_s: float, camera: Pinhole) -> TrackedRows | None:
-        crop = self._task.crop
-        if self._lane.trailing is not None:
-            self._lane.trailing = track(self._lane.trailing, centres, stamp_s, crop, camera)
-            return self._lane.trailing
-        lane = lane_of(cover, centres, crop, camera)
-        if self._found.add(lane) and lane:
-            self._lane.trailing = start(lane, stamp_s)
-        return self._lane.trailing
+    def _left_m(self, seen: Observation) -> float:
+        """Way to where the trailing camera stands as far past the last crop as the profile says."""
+        camera_m = self._task.cameras[self._direction.trailing].forward_m
+        stop_m = self._end.crop_until_m + self._task.crop.switching.headland_m + camera_m
+        return stop_m - driven_m(seen, self._direction)
 
-    def _speed_mps(self, rows: TrackedRows, centres: Centres, camera: Pinhole) -> float:
-        """Slower as the last plants near the view's middle: each centimetre past it shows less of them."""
-        crop = self._task.crop
-        nearest_m = nearest_crop_m(centres, rows.rows, crop, camera)
-        middle = np.array([camera.centre_x_px, camera.centre_y_px])
-        middle_m = float(canopy_plane(camera, crop).to_ground(middle)[0])
-        left_m = max(0.0, middle_m - nearest_m) if nearest_m is not None else 0.0
-        return min(crop.speeds.exit_mps, SLOWEST_MPS + APPROACH_PER_S * left_m)
-
-    def _ahead(self, turn_rps: float, speed_mps: float) -> Motion:
-        return Motion(Twist(vx_mps=self._direction.sign * speed_mps, yaw_rate_rps=turn_rps))
+    def _motion(self, seen: Observation, step: Step) -> Motion:
+        if step.event in (Event.LANE_LEFT, Event.LAST_LANE_LEFT, Event.FAIL):
+            return Motion(Twist(), steering_of(self._task.crop))
+        speed_mps = SLOWEST_MPS + APPROACH_PER_S * max(0.0, self._left_m(seen))
+        speed_mps = min(self._task.crop.speeds.exit_mps, speed_mps)
+        return self._lane.guide.motion(seen.pose, speed_mps, self._direction.trailing)

@@ -3,9 +3,10 @@
 from collections import Counter
 from dataclasses import dataclass, field
 
+from fieldnav.estimation.lane_end import LaneEnd
 from fieldnav.perception.passing_rows import Crossing
 from fieldnav.perception.recognition import Descriptors
-from fieldnav.perception.tracking import TrackedRows
+from states.guide import Guide, Look
 
 OFTEN = 0.1
 """Share of a lane's frames: gaps hide a row in most of them at times, but not in nine of ten."""
@@ -24,15 +25,38 @@ class SwitchMemory:
 
 @dataclass(slots=True)
 class LaneMemory:
-    """One lane: the rows as each camera follows them, and how many rows were seen how often."""
+    """One lane: what guides along it, where it ends, and how many rows were seen how often.
+
+    expected_m: the length of the lanes before, None on the first.
+    """
 
     number: int
+    expected_m: float | None = None
     under_way: bool = False
-    entered_m: float | None = None
-    leading: TrackedRows | None = None
-    trailing: TrackedRows | None = None
+    trailing: Look | None = None
     counts: Counter[int] = field(default_factory=Counter)
     switch: SwitchMemory | None = None
+    _guide: Guide | None = None
+    _end: LaneEnd | None = None
+
+    def enter(self, guide: Guide, end: LaneEnd) -> None:
+        """The lane has been found; found again, it still ends where it did."""
+        self._guide, self._end, self.under_way = guide, self._end or end, True
+
+    @property
+    def guide(self) -> Guide:
+        assert self._guide, "Acquiring hands over the guide"
+        return self._guide
+
+    @property
+    def end(self) -> LaneEnd:
+        assert self._end, "Acquiring begins to look for the end"
+        return self._end
+
+    def after(self) -> "LaneMemory":
+        """The memory of the lane that follows."""
+        length_m = self._end.length_m() if self._end else self.expected_m
+        return LaneMemory(self.number + 1, length_m)
 
     @property
     def rows_passed(self) -> int:

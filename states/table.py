@@ -37,7 +37,7 @@ def _lane_transitions(direction: Direction) -> tuple[Transition, ...]:
         Transition(tracking, Event.LANE_ENDED, leaving),
         Transition(coasting, Event.ROWS_FOUND, tracking),
         Transition(coasting, Event.LANE_ENDED, leaving),
-        Transition(leaving, Event.ROWS_SEEN_AGAIN, acquiring),
+        Transition(leaving, Event.ROWS_SEEN_AGAIN, coasting),
         Transition(leaving, Event.LANE_LEFT, orienting),
         Transition(leaving, Event.LAST_LANE_LEFT, FINISHED),
         Transition(orienting, Event.WHEELS_TURNED, sampling),

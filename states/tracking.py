@@ -1,68 +1,54 @@
 """Follow.Tracking: follow the rows with the leading camera until they end (paper phase 1, III-A.3, III-B)."""
 
-from math import degrees
-
-from fieldnav.control.servoing import yaw_rate
-from fieldnav.messages import CameraName, Direction, Evidence, Motion, Twist
-from fieldnav.perception.image_halves import ImagePart
+from fieldnav.messages import CameraName, Direction, Evidence, Frame
 from fieldnav.perception.plants import find_plants
-from fieldnav.perception.row_end import crop_in_rows
-from fieldnav.perception.tracking import feature, track
 from states.behaviour import Observation, Sight, Step, Task
-from states.emptiness import Emptiness
+from states.lane_watch import LANE_ENDED, driven_m, end_evidence, watch_end
 from states.memory import LaneMemory
 from states.names import Event
 
-LOST_S = 0.6
-"""So long may fewer than half of the rows be seen while there still is crop ahead."""
+LOST_M = 0.25
+"""Over so much driving may fewer than half of the rows be seen."""
 
 
 class Tracking:
-    """Steers by the average line of the tracked rows; judges whether they are lost or at their end."""
+    """Steers by the lane's guide; judges whether the rows are lost or at their end."""
 
     def __init__(self, task: Task, direction: Direction, lane: LaneMemory) -> None:
         self.cameras: tuple[CameraName, ...] = (direction.leading,)
         self._task, self._direction, self._lane = task, direction, lane
-        self._end = Emptiness(task.crop.row_end.confirm_s, task.crop.row_end.confirm_m)
-        self._well_seen_s: float | None = None
+        self._well_seen_m: float | None = None
         self._step = Step()
 
     def step(self, seen: Observation) -> Step:
         frame = seen.frames.get(self._direction.leading)
-        if frame is None:
-            return self._step.continued()
-        crop, camera = self._task.crop, self._task.cameras[frame.camera]
-        assert self._lane.leading, "Acquiring hands over the rows"
+        if frame is not None:
+            self._step = self._judge(frame, seen)
+        speed_mps = self._task.crop.speeds.follow_mps
+        motion = self._lane.guide.motion(seen.pose, speed_mps, self._direction.leading)
+        return self._step.with_motion(motion) if frame is not None else self._step.continued(motion)
+
+    def _judge(self, frame: Frame, seen: Observation) -> Step:
+        crop, camera, guide = self._task.crop, self._task.cameras[frame.camera], self._lane.guide
         centres = find_plants(frame.image, crop.vegetation, camera)
-        rows = self._lane.leading = track(self._lane.leading, centres, frame.stamp_s, crop, camera)
-        line = feature(rows.rows, camera)
-        speed_mps = crop.speeds.follow_mps
-        turn_rps = yaw_rate(line, camera, speed_mps, crop.servoing)
-        motion = Motion(Twist(vx_mps=self._direction.sign * speed_mps, yaw_rate_rps=turn_rps))
-
-        ahead = crop_in_rows(centres, rows.rows, crop, camera, ImagePart.TOP)
-        crop_ahead = ahead > crop.row_end.least_crop
-        ended = self._end.add(crop_ahead, frame.stamp_s, seen.forward_m)
-        unseen_s = self._poorly_seen_s(rows.rows_seen, frame.stamp_s)
+        look = guide.look(frame, centres, seen.exposed_at(frame))
+        end = watch_end(self._lane, frame, centres, look.rows, seen, self._direction, self._task)
+        self._lane.counts[look.rows_seen] += 1
+        unseen_m = self._poorly_seen_m(look.rows_seen, driven_m(seen, self._direction, frame))
         evidence = (
-            Evidence("crop in the top half", ahead, crop.row_end.least_crop, "rows"),
-            *self._end.evidence("top half"),
-            Evidence("rows seen", rows.rows_seen, len(rows.rows) / 2, "rows"),
-            Evidence("rows poorly seen for", unseen_s, LOST_S, "s"),
-            Evidence("feature offset", line.offset_px, None, "px"),
-            Evidence("feature angle", degrees(line.theta_rad), None, "deg"),
+            *end_evidence(end, LANE_ENDED),
+            Evidence("rows seen", look.rows_seen, len(look.rows) / 2, "rows"),
+            Evidence("rows poorly seen over", unseen_m, LOST_M, "m"),
+            *guide.evidence(seen.pose),
         )
-        sight = Sight(frame, rows.rows, centres, line)
-        self._lane.counts[rows.rows_seen] += 1
         event = None
-        if ended:
+        if end.probability >= LANE_ENDED:
             event = Event.LANE_ENDED
-        elif unseen_s > LOST_S and crop_ahead:
+        elif unseen_m > LOST_M:
             event = Event.ROWS_LOST
-        self._step = Step(motion, event, evidence, sight)
-        return self._step
+        return Step(event=event, evidence=evidence, sight=Sight(frame, look.rows, centres, guide.feature))
 
-    def _poorly_seen_s(self, rows_seen: int, stamp_s: float) -> float:
-        if self._well_seen_s is None or 2 * rows_seen >= self._task.crop.rows.per_lane:
-            self._well_seen_s = stamp_s
-        return stamp_s - self._well_seen_s
+    def _poorly_seen_m(self, rows_seen: int, driven: float) -> float:
+        if self._well_seen_m is None or 2 * rows_seen >= self._task.crop.rows.per_lane:
+            self._well_seen_m = driven
+        return driven - self._well_seen_m

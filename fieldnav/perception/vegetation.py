@@ -1,13 +1,12 @@
 """Where vegetation is: excess green and Otsu's threshold (paper III-A.1)."""
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import cv2
 import numpy as np
 from numpy.typing import NDArray
 
 from fieldnav.messages import Image
-from fieldnav.perception.image_halves import ImagePart
 from fieldnav.settings.crop import Vegetation
 
 Mask = NDArray[np.uint8]
@@ -52,15 +51,6 @@ class Cover:
         """
         strips = np.array_split(self.index, min(STRIPS, len(self.index)))
         return np.concatenate([_strength(strip, self.floor / 2) for strip in strips])
-
-    def part(self, part: ImagePart) -> "Cover":
-        """The same image with nothing growing outside a part of it."""
-        index, middle = self.index.copy(), len(self.index) // 2
-        if part is ImagePart.TOP:
-            index[middle:] = 0
-        elif part is ImagePart.BOTTOM:
-            index[:middle] = 0
-        return replace(self, index=index)
 
 
 def _strength(strip: NDArray[np.uint8], floor: float) -> NDArray[np.uint8]:

@@ -1,10 +1,12 @@
 """Crop profile: everything about a crop that the robot must know, in metres rather than pixels."""
 
 from enum import Enum
+from math import radians
 from typing import Annotated
 
 from pydantic import Field
 
+from fieldnav.messages import Steering
 from fieldnav.settings.lane_change import Recognition, RowEnd, Seconds, Switching
 from fieldnav.settings.model import FileName, Settings
 
@@ -89,9 +91,25 @@ class ControlLaw(Enum):
 
 
 class Control(Settings):
-    """Following the lane's path."""
+    """How the robot is held on the lane; lengths are those over which an error falls to a third."""
 
     law: ControlLaw = ControlLaw.PATH_FOLLOWING
+    steering: Steering = Field(
+        default=Steering.OMNIDIRECTIONAL,
+        description="omnidirectional: all wheels steer; differential: they stay straight within the rows",
+    )
+    offset_length_m: float = Field(default=0.7, ge=0.2, le=5)
+    heading_length_m: float = Field(default=0.7, ge=0.2, le=5)
+    steepest_crab_deg: float = Field(
+        default=15.0, ge=1, le=45, description="the most that it travels at an angle to its heading"
+    )
+    most_uncertain_m: float = Field(
+        default=0.08, ge=0.01, le=0.5, description="offset's standard deviation at which it stops in a gap"
+    )
+
+    @property
+    def steepest_crab_rad(self) -> float:
+        return radians(self.steepest_crab_deg)
 
 
 class Servoing(Settings):

@@ -10,34 +10,25 @@ Seconds = Annotated[float, Field(gt=0, le=60)]
 
 
 class RowEnd(Settings):
-    """When following and exit end (paper III-A.3), as a decision over time and distance."""
+    """How a lane's end is told from a gap in it: by probability, over distance (paper III-A.3)."""
 
-    confirm_s: Seconds = 0.4
-    confirm_m: float = Field(default=0.15, gt=0, le=3)
-    exit_confirm_s: Seconds = Field(
-        default=0.1,
-        description="the same when leaving; the leading camera has seen no row for metres by then",
-    )
-    exit_confirm_m: float = Field(
-        default=0.03,
-        gt=0,
-        le=1,
-        description="every centimetre more is less of the rows left to see and to count",
-    )
-    least_crop: float = Field(
-        default=0.1, ge=0, le=5, description="crop in half a view that is still a row; 1 is one full row"
-    )
     longest_gap_m: float = Field(
         default=2.0,
         ge=0,
         le=10,
-        description="how far the robot coasts on without seeing the rows before it stops with a fault",
+        description="of all rows at once; so far the robot goes on without rows before it stops with a fault",
     )
 
 
 class Recognition(Settings):
-    """Paper III-C: telling a new row from the same one by SIFT features."""
+    """Telling a new row from the same one by SIFT features (paper III-C)."""
 
+    new_row_share: float = Field(
+        default=0.05,
+        gt=0,
+        le=1,
+        description="a row is new when less than this share of its features moved together",
+    )
     match_ratio: float = Field(
         default=0.0, ge=0, le=2000, description="lambda: matches at or below are left out"
     )
@@ -50,6 +41,9 @@ class Recognition(Settings):
 class Switching(Settings):
     """The sidestep to the next lane: how far it may go and how well it must end."""
 
+    headland_m: float = Field(
+        default=0.35, ge=0.1, le=2, description="from the last crop to the trailing camera at the sidestep"
+    )
     longest_sidestep_m: float = Field(default=2.5, gt=0.2, le=6)
     centred_m: float = Field(
         default=0.02, gt=0, le=0.2, description="the new lane counts as centred within this"

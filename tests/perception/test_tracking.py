@@ -6,11 +6,9 @@ import numpy as np
 import pytest
 
 from fieldnav.messages import Centres
-from fieldnav.perception.image_halves import ImagePart
 from fieldnav.perception.perceive import find
 from fieldnav.perception.plants import NO_PLANTS, find_plants
-from fieldnav.perception.row_end import centres_in_rows, crop_stretch_m, farthest_crop_m
-from fieldnav.perception.row_end import nearest_crop_m as nearest_m
+from fieldnav.perception.row_end import crop_along_rows
 from fieldnav.perception.tracking import TrackedRows, feature, start, track
 
 PERIOD_S = 1 / 15
@@ -146,23 +144,22 @@ def test_the_feature_is_nought_on_a_centred_lane_and_positive_to_the_right(drawn
     assert leaning_right.theta_rad > 0.05
 
 
-def test_plants_are_counted_in_the_half_they_stand_in(drawn: SimpleNamespace) -> None:
+def test_crop_along_the_rows_is_told_in_metres_and_weeds_between_them_count_against_it(
+    drawn: SimpleNamespace,
+) -> None:
     rows, beet, camera = started(drawn).rows, drawn.beet, drawn.camera
-    middle_m = float(camera.to_ground(np.array([camera.centre_x_px, camera.centre_y_px]))[0])
-    far = plants_seen(drawn, drawn.stand(beet, ahead_m=(middle_m + 0.06, 1.7)), np.array([[1.5, 0.17]]))
+    two = plants_seen(drawn, np.array([[1.0, 0.0], [1.5, 0.35]]), np.array([[1.3, 0.175]]))
 
-    counts = {part: int(centres_in_rows(far, rows, beet, camera, part).sum()) for part in ImagePart}
+    ahead_m, weight = crop_along_rows(two, rows, beet, camera)
 
-    assert counts[ImagePart.TOP] == counts[ImagePart.WHOLE] == len(far) - 1
-    assert counts[ImagePart.BOTTOM] == 0
+    order = np.argsort(ahead_m)
+    assert ahead_m[order] == pytest.approx([1.0, 1.3, 1.5], abs=0.02)
+    assert (np.sign(weight[order]) == [1, -1, 1]).all()
 
 
-def test_the_rows_reach_is_told_in_metres(drawn: SimpleNamespace) -> None:
-    rows, beet, camera = started(drawn).rows, drawn.beet, drawn.camera
-    two = plants_seen(drawn, np.array([[1.0, 0.0], [1.5, 0.35]]))
+def test_plants_of_another_lane_are_no_crop_of_this_one(drawn: SimpleNamespace) -> None:
+    beside = plants_seen(drawn, np.array([[1.2, 0.62]]))
 
-    stretch = crop_stretch_m(two, rows, beet, camera)
+    ahead_m, _ = crop_along_rows(beside, started(drawn).rows, drawn.beet, drawn.camera)
 
-    assert stretch == pytest.approx((1.0, 1.5), abs=0.01)
-    assert (nearest_m(two, rows, beet, camera), farthest_crop_m(two, rows, beet, camera)) == stretch
-    assert crop_stretch_m(NO_PLANTS, rows, beet, camera) is None
+    assert len(beside) == 1 and len(ahead_m) == 0

@@ -5,16 +5,17 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
+from fieldnav.estimation.lane_end import LaneEnd
 from fieldnav.messages import CameraName, Direction, Frame, Side, Steering
+from fieldnav.odometry import Pose
 from fieldnav.perception.passing_rows import begin
 from fieldnav.perception.perceive import find
-from fieldnav.perception.tracking import start
 from states.acquiring import CREEP_LIMIT_M, STANDING_LOOK_S, Acquiring
 from states.behaviour import Step, Task
 from states.behaviours import Behaviours
-from states.coasting import Coasting
 from states.crossing import CrossingRows
-from states.exiting import Exiting
+from states.guide import Look
+from states.guides import guide_for
 from states.machine import Change
 from states.memory import LaneMemory, SwitchMemory
 from states.names import Event, Follow, Phase, Sidestep, text
@@ -39,12 +40,16 @@ def lane(drawn: SimpleNamespace, number: int = 1) -> LaneMemory:
     """The memory of a lane whose rows both cameras see."""
     fit = find(drawn.picture(drawn.crop, drawn.rows(drawn.crop)), drawn.crop, drawn.camera).lane
     assert fit
-    rows = start(fit, 0.0)
-    return LaneMemory(number=number, leading=rows, trailing=rows, switch=SwitchMemory(started_m=0.0))
+    trailing = Look(fit.rows, fit.rows_seen)
+    memory = LaneMemory(number=number, trailing=trailing, switch=SwitchMemory(started_m=0.0))
+    guide = guide_for(drawn.task, Direction.FORWARD)
+    guide.begin(fit, Frame(CameraName.FRONT, 1, 0.0, np.empty((0, 0, 3), np.uint8)), Pose())
+    memory.enter(guide, LaneEnd(drawn.crop, 0.0, None))
+    return memory
 
 
 def drive(
-    behaviour: Acquiring | Coasting | Tracking | Exiting,
+    behaviour: Acquiring,
     situation: SimpleNamespace,
     images: dict[CameraName, np.ndarray],
     seconds: float,
@@ -70,7 +75,8 @@ def test_acquiring_believes_rows_that_several_frames_show(
     step = drive(acquiring, situation, images, 2.0)
 
     assert step.event is Event.ROWS_FOUND
-    assert memory.leading and len(memory.leading.rows) == memory.rows == drawn.crop.rows.per_lane
+    assert memory.under_way and memory.rows == drawn.crop.rows.per_lane
+    assert len(memory.guide.rows(direction.leading, Pose())) == drawn.crop.rows.per_lane
 
 
 @DIRECTIONS
@@ -89,110 +95,6 @@ def test_acquiring_without_rows_stands_then_creeps_boundedly_then_says_why_it_st
     assert step.motion.twist.vx_mps == 0.0
     assert CREEP_LIMIT_M < direction.sign * situation.forward_m < CREEP_LIMIT_M + 0.1
     assert judged(step, "crept") > CREEP_LIMIT_M
-
-
-def test_between_frames_a_behaviour_wants_the_same_motion_and_decides_nothing(drawn: SimpleNamespace) -> None:
-    situation = drawn.situation()
-    tracking = Tracking(drawn.task, Direction.FORWARD, lane(drawn))
-    images = {CameraName.FRONT: drawn.picture(drawn.crop, drawn.rows(drawn.crop, offset_m=0.05))}
-
-    with_frame, without = tracking.step(situation.seen(images)), tracking.step(situation.seen())
-
-    assert without.motion == with_frame.motion and with_frame.motion.twist.vx_mps > 0
-    assert without.event is None and without.sight is None
-
-
-@DIRECTIONS
-def test_tracking_steers_towards_rows_that_lie_aside(direction: Direction, drawn: SimpleNamespace) -> None:
-    for offset_m in (-0.06, 0.06):
-        memory, situation = lane(drawn), drawn.situation()
-        tracking = Tracking(drawn.task, direction, memory)
-        images = {direction.leading: drawn.picture(drawn.crop, drawn.rows(drawn.crop, offset_m=offset_m))}
-
-        for _ in range(3):
-            step = tracking.step(situation.seen(images))
-
-        assert direction.sign * step.motion.twist.vx_mps == pytest.approx(drawn.crop.speeds.follow_mps)
-        # Looking along the way, rows to the left ask for a turn to the left, whichever camera leads.
-        assert np.sign(step.motion.twist.yaw_rate_rps) == np.sign(offset_m)
-
-
-@DIRECTIONS
-def test_tracking_ends_the_lane_when_the_far_half_stays_empty(
-    direction: Direction, drawn: SimpleNamespace
-) -> None:
-    memory, situation = lane(drawn), drawn.situation()
-    tracking = Tracking(drawn.task, direction, memory)
-    middle_m = float(
-        drawn.camera.to_ground(np.array([drawn.camera.centre_x_px, drawn.camera.centre_y_px]))[0]
-    )
-    ending = {direction.leading: drawn.picture(drawn.crop, drawn.rows(drawn.crop, to_m=middle_m - 0.15))}
-    began_s = situation.now_s
-
-    step = drive(tracking, situation, ending, 5.0)
-
-    assert step.event is Event.LANE_ENDED
-    assert situation.now_s - began_s >= drawn.crop.row_end.confirm_s
-    assert abs(situation.forward_m) >= drawn.crop.row_end.confirm_m
-
-
-def test_a_robot_that_stands_before_an_empty_view_has_not_reached_the_end(drawn: SimpleNamespace) -> None:
-    situation = drawn.situation()
-    tracking = Tracking(drawn.task, Direction.FORWARD, lane(drawn))
-    bare = {CameraName.FRONT: drawn.picture(drawn.crop, np.empty((0, 2)))}
-
-    steps = [tracking.step(situation.seen(bare)) for _ in range(60)]
-
-    assert {step.event for step in steps} == {None}
-
-
-@DIRECTIONS
-def test_coasting_finds_the_rows_again(direction: Direction, drawn: SimpleNamespace) -> None:
-    memory, situation = lane(drawn), drawn.situation()
-    before = memory.leading
-    coasting = Coasting(drawn.task, direction, memory)
-    images = {direction.leading: drawn.picture(drawn.crop, drawn.rows(drawn.crop))}
-
-    step = drive(coasting, situation, images, 2.0)
-
-    assert step.event is Event.ROWS_FOUND
-    assert memory.leading is not before
-
-
-def test_coasting_with_crop_ahead_but_no_lane_gives_up_after_the_longest_gap(drawn: SimpleNamespace) -> None:
-    situation = drawn.situation()
-    coasting = Coasting(drawn.task, Direction.FORWARD, lane(drawn))
-    one_plant = {CameraName.FRONT: drawn.picture(drawn.crop, np.array([[1.5, drawn.crop.rows.spacing_m]]))}
-
-    step = drive(coasting, situation, one_plant, 60.0)
-
-    assert step.event is Event.FAIL and "longest gap" in step.reason
-    gap_m = drawn.crop.row_end.longest_gap_m
-    assert gap_m < situation.forward_m < gap_m + 0.1
-
-
-def test_weeds_between_the_rows_do_not_hide_the_end_from_coasting(drawn: SimpleNamespace) -> None:
-    situation = drawn.situation()
-    coasting = Coasting(drawn.task, Direction.FORWARD, lane(drawn))
-    between = {CameraName.FRONT: drawn.picture(drawn.crop, np.array([[1.5, drawn.crop.rows.spacing_m / 2]]))}
-
-    step = drive(coasting, situation, between, 60.0)
-
-    assert step.event is Event.LANE_ENDED
-
-
-@DIRECTIONS
-def test_exit_without_rows_behind_fails_within_the_length_of_the_exit(
-    direction: Direction, drawn: SimpleNamespace
-) -> None:
-    situation = drawn.situation()
-    bare = drawn.picture(drawn.crop, np.empty((0, 2)))
-    exiting = Exiting(drawn.task, direction, lane(drawn))
-
-    step = drive(exiting, situation, {name: bare for name in CameraName}, 60.0)
-
-    assert step.event is Event.FAIL and step.reason == "no rows behind to leave by"
-    assert direction.sign * situation.forward_m < sum(drawn.camera.view_m) + 0.1
 
 
 def test_orienting_waits_for_standstill_and_then_for_the_wheels(drawn: SimpleNamespace) -> None:
@@ -330,7 +232,7 @@ def test_a_new_lane_begins_with_a_fresh_memory(drawn: SimpleNamespace) -> None:
 
     behaviours.enter(Change(settling, Event.LANE_CENTRED, acquiring))
 
-    assert behaviours.lane == LaneMemory(number=2)
+    assert behaviours.lane.number == 2 and not behaviours.lane.under_way and not behaviours.lane.counts
     assert isinstance(behaviours.current, Acquiring)
 
 
@@ -352,6 +254,7 @@ def test_every_moving_state_has_a_behaviour_that_asks_for_the_cameras_it_goes_by
     leaf: tuple[Direction, ...], drawn: SimpleNamespace
 ) -> None:
     behaviours = Behaviours(drawn.task)
+    behaviours.lane = lane(drawn)
     behaviours.enter(Change(leaf, Event.RESUME, leaf))
 
     direction, cameras = leaf[0], behaviours.current.cameras
