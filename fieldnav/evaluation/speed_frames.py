@@ -1,6 +1,7 @@
 """What a frame costs: finding and tracking rows, over the least that any finder of plants does with it."""
 
 from collections.abc import Sequence
+from itertools import count
 
 import cv2
 import numpy as np
@@ -19,20 +20,22 @@ from fieldnav.evaluation.speed_samples import (
     strewn_sample,
 )
 from fieldnav.evaluation.speed_timing import Work, medians_ms
-from fieldnav.messages import Floats, Image
-from fieldnav.mission.loop import TICK_S
+from fieldnav.messages import CameraName, Direction, Floats, Frame, Image, Side
+from fieldnav.odometry import Pose
 from fieldnav.perception.canopy import canopy_plane
-from fieldnav.perception.lane import comb_m
+from fieldnav.perception.lane import LaneFit, comb_m
 from fieldnav.perception.perceive import find
 from fieldnav.perception.plants import find_plants
-from fieldnav.perception.tracking import TrackedRows, track
 from fieldnav.settings.loading import load_crop, load_robot
+from states.behaviour import Task
+from states.guides import guide_for
 
 PHOTOGRAPH_ROUNDS, QUICK_PHOTOGRAPH_ROUNDS = 15, 3  # of each photograph
 FRESH_GOAL, TRACKING_GOAL = 1.5, 1.0  # over the bare primitives
 REFERENCE_FRESH_MS, REFERENCE_TRACKING_MS = 57.0, 17.0
 REFERENCE = "reference implementation, the least of its range on a machine like this"
 STREWN = (50, 120, 200, 300, 400, 500)  # plants in view
+FRAME_STEP_M = 0.033  # 0.5 m/s at 15 frames/s
 BRIGHTEST = 255
 
 
@@ -45,15 +48,17 @@ def bare_primitives(image: Image) -> object:
 
 
 def tracking_in(sample: Sample) -> Work:
-    """Tracking in the next frame of the rows of a lane straight under the robot."""
+    """Tracking in the frames that follow, as the robot drives on, of a lane straight under it."""
     image, crop, camera = sample.image, sample.crop, sample.camera
-    plane = canopy_plane(camera, crop)
+    guide = guide_for(Task(crop, dict.fromkeys(CameraName, camera), Side.RIGHT, 1), Direction.FORWARD)
+    plane, frame = canopy_plane(camera, crop), Frame(CameraName.FRONT, 1, 0.0, image)
     rows = tuple(plane.row_in_image(place, 0.0) for place in comb_m(crop))
-    before = TrackedRows(rows, (0.0,) * len(rows), (0,) * len(rows), 0.0)
+    guide.begin(LaneFit(rows, 0.0, 0.0, len(rows), crop.rows.spacing_m, 0.0), frame, Pose())
+    steps = count(1)
 
     def work() -> object:
         centres = find_plants(image, crop.vegetation, camera)
-        return track(before, centres, TICK_S, crop, camera)
+        return guide.look(frame, centres, Pose(x_m=next(steps) * FRAME_STEP_M))
 
     return work
 

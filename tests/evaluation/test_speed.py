@@ -16,8 +16,8 @@ from fieldnav.evaluation.speed_samples import crowded_sample, rendered_sample, s
 from fieldnav.evaluation.speed_sidestep import sidestep_figure
 from fieldnav.evaluation.speed_timing import medians_ms, one_thread
 from fieldnav.perception.plants import find_plants
-from fieldnav.perception.tracking import TrackedRows
 from fieldnav.settings.loading import load_crop
+from states.guide import Look
 
 
 def busy(seconds: float) -> None:
@@ -77,8 +77,8 @@ def test_tracking_follows_rows_and_every_part_of_a_frame_takes_time() -> None:
 
     tracked = tracking_in(sample)()
 
-    assert isinstance(tracked, TrackedRows)
-    assert len(tracked.rows) == sample.crop.rows.per_lane
+    assert isinstance(tracked, Look)
+    assert tracked.rows_seen == len(tracked.rows) == sample.crop.rows.per_lane
     assert (frame_ms(sample, 1) > 0).all()
 
 
