@@ -1,60 +1,43 @@
 """Field file: the world a simulated run happens in, and how hard it is made. Used by the simulation alone."""
 
-from enum import Enum
 from typing import Annotated
 
 from pydantic import AfterValidator, Field
 
+from fieldnav.settings.field_cover import GrassEdge, Weeds
+from fieldnav.settings.field_rows import (
+    ALL_ROWS,
+    MOST_LANES,
+    Gaps,
+    PlacedGap,
+    Rows,
+    Shape,
+    Unsown,
+    UnsownRow,
+    ascending,
+)
 from fieldnav.settings.model import FileName, Settings
 
+__all__ = [
+    "ALL_ROWS",
+    "CameraErrors",
+    "FieldSettings",
+    "Gaps",
+    "GrassEdge",
+    "Ground",
+    "Light",
+    "PlacedGap",
+    "Rows",
+    "Shape",
+    "Start",
+    "Unsown",
+    "UnsownRow",
+    "Weeds",
+    "WheelErrors",
+]
 
-def _ascending(span: tuple[float, float]) -> tuple[float, float]:
-    if span[0] > span[1]:
-        raise ValueError("allowed is a smaller number first, then a larger one")
-    return span
-
-
-GapLength = Annotated[float, Field(ge=0.05, le=20)]
-WeedSize = Annotated[float, Field(ge=0.005, le=0.5)]
 Frequency = Annotated[float, Field(ge=0.05, le=20)]
 Grey = Annotated[int, Field(ge=0, le=255)]
-
-
-class Shape(Enum):
-    STRAIGHT = "straight"
-    CURVED = "curved"
-
-
-class Rows(Settings):
-    """How far the rows are from a ruler's line."""
-
-    shape: Shape = Shape.STRAIGHT
-    radius_m: float = Field(default=25.0, ge=8, le=1000, description="tightest radius of a curved field")
-    wavelength_m: float = Field(default=40.0, ge=10, le=500, description="length of one left and right bend")
-    wander_m: float = Field(default=0.02, ge=0, le=0.2, description="rms departure from straight")
-    wander_length_m: float = Field(default=5.0, ge=1, le=50)
-    scatter_m: float = Field(default=0.015, ge=0, le=0.1, description="rms distance of a plant from its row")
-    spacing_error: float = Field(default=0.0, ge=0, le=0.3, description="uneven row distances, as a fraction")
-    ragged_m: float = Field(default=0.1, ge=0, le=0.5, description="row ends lie within plus or minus this")
-
-
-class Gaps(Settings):
-    """Stretches without plants."""
-
-    germination: float = Field(default=0.95, gt=0.1, le=1)
-    row_gaps_per_10m: float = Field(default=0.3, ge=0, le=5, description="in one row")
-    row_gap_m: Annotated[tuple[GapLength, GapLength], AfterValidator(_ascending)] = (0.4, 1.0)
-    lane_gaps_per_10m: float = Field(default=0.0, ge=0, le=1, description="in all rows of a lane at once")
-    lane_gap_m: Annotated[tuple[GapLength, GapLength], AfterValidator(_ascending)] = (0.5, 1.0)
-
-
-class Weeds(Settings):
-    """Plants that are not the crop."""
-
-    per_m2: float = Field(default=2.0, ge=0, le=60)
-    size_m: Annotated[tuple[WeedSize, WeedSize], AfterValidator(_ascending)] = (0.02, 0.08)
-    patches: float = Field(default=0.3, ge=0, le=1, description="share of the weeds that grow in patches")
-    headland_per_m2: float = Field(default=0.3, ge=0, le=20)
 
 
 class Light(Settings):
@@ -82,11 +65,12 @@ class CameraErrors(Settings):
     """What the cameras do that their file does not say."""
 
     shake_deg: float = Field(default=1.0, ge=0, le=5, description="rms of roll and of pitch")
-    shake_hz: Annotated[tuple[Frequency, Frequency], AfterValidator(_ascending)] = (1.0, 2.0)
+    shake_hz: Annotated[tuple[Frequency, Frequency], AfterValidator(ascending)] = (1.0, 2.0)
     bounce_m: float = Field(default=0.02, ge=0, le=0.1, description="height, plus or minus")
     tilt_error_deg: float = Field(default=1.5, ge=0, le=10, description="calibration, plus or minus")
     height_error_m: float = Field(default=0.03, ge=0, le=0.2)
     focal_error: float = Field(default=0.02, ge=0, le=0.2)
+    yaw_error_deg: float = Field(default=0.3, ge=0, le=5, description="calibration, plus or minus")
     latency_s: float = Field(default=0.07, ge=0, le=0.5)
     lost_frames: float = Field(default=0.01, ge=0, le=0.5)
     exposure_s: float = Field(default=0.004, ge=0, le=0.03, description="motion blur")
@@ -115,14 +99,16 @@ class FieldSettings(Settings):
 
     name: FileName
     crop: str = Field(min_length=1, description="name of a shipped crop profile, or the path of one")
-    lanes: int = Field(ge=1, le=100)
+    lanes: int = Field(ge=1, le=MOST_LANES)
     length_m: float = Field(ge=4, le=2000)
     lane_pitch_m: float = Field(default=1.5, ge=0.5, le=5)
     seed: int = Field(default=1, ge=0, le=2**31 - 1)
     mirrored: bool = False
     rows: Rows = Rows()
     gaps: Gaps = Gaps()
+    unsown: Unsown = Unsown()
     weeds: Weeds = Weeds()
+    grass_edge: GrassEdge = GrassEdge()
     light: Light = Light()
     wind_mps: float = Field(default=2.0, ge=0, le=15)
     ground: Ground = Ground()

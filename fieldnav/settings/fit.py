@@ -5,6 +5,7 @@ from math import ceil
 from fieldnav.errors import SettingsError
 from fieldnav.settings.crop import CropProfile
 from fieldnav.settings.field import FieldSettings
+from fieldnav.settings.placement import check_places
 from fieldnav.settings.robot import Geometry, Robot
 
 MOST_PLANTS = 400_000
@@ -43,17 +44,32 @@ def check_fit(crop: CropProfile, robot: Robot, lane_pitch_m: float | None = None
 
 
 def check_size(field: FieldSettings, crop: CropProfile) -> None:
-    """Raise SettingsError for a field of more plants, crop and weeds, than can be sown and drawn in time."""
+    """Raise SettingsError for a field of more plants than can be drawn in time, and for places it has not."""
+    check_places(field, crop)
     rows = field.lanes * crop.rows.per_lane
     plants = rows * (field.length_m / crop.plants.spacing_m + 1)
     weeds = field.weeds.per_m2 * field.lanes * field.lane_pitch_m * field.length_m
-    if plants + weeds > MOST_PLANTS:
+    grass = _tufts(field)
+    if plants + weeds + grass > MOST_PLANTS:
+        meadow = f", and {grass:.0f} tufts at grass_edge.tufts_per_m2 {field.grass_edge.tufts_per_m2:g}" * (
+            grass > 0
+        )
         raise SettingsError(
             f"field {field.name}: lanes {field.lanes} of length_m {field.length_m:g} hold about "
-            f"{plants + weeds:.0f} plants, {plants:.0f} of crop {crop.name} every plants.spacing_m "
-            f"{crop.plants.spacing_m:g} and {weeds:.0f} weeds at weeds.per_m2 {field.weeds.per_m2:g}; "
-            f"allowed is at most {MOST_PLANTS}"
+            f"{plants + weeds + grass:.0f} plants, {plants:.0f} of crop {crop.name} every plants.spacing_m "
+            f"{crop.plants.spacing_m:g} and {weeds:.0f} weeds at weeds.per_m2 "
+            f"{field.weeds.per_m2:g}{meadow}; allowed is at most {MOST_PLANTS}"
         )
+
+
+def _tufts(field: FieldSettings) -> float:
+    """About how many tufts of grass stand about a field."""
+    edge = field.grass_edge
+    if not edge.present:
+        return 0.0
+    inner_m = (field.length_m + 2 * edge.beyond_ends_m, field.lanes * field.lane_pitch_m + 2 * edge.beside_m)
+    outer_m = [side_m + 2 * edge.depth_m for side_m in inner_m]
+    return edge.tufts_per_m2 * (outer_m[0] * outer_m[1] - inner_m[0] * inner_m[1])
 
 
 def _pattern(crop: CropProfile) -> str:

@@ -42,6 +42,8 @@ class SimulatedCamera:
         self._tilt_rad = self._pinhole.tilt_rad + radians(errors.tilt_error_deg) * float(drawn[0])
         self._height_m = self._pinhole.height_m + errors.height_error_m * float(drawn[1])
         self._focal_px = self._pinhole.focal_px * (1 + errors.focal_error * float(drawn[2]))
+        yaw = float(random_stream(world.field.seed, Stream.CAMERA_YAW, place).uniform(-1, 1))
+        self._yaw_rad = radians(errors.yaw_error_deg) * yaw * (-1 if world.field.mirrored else 1)
         self._losses = random_stream(world.field.seed, Stream.LOST_FRAMES, place)
         size_px = (self._pinhole.width_px, self._pinhole.height_px)
         self._sensor = Sensor(errors, *size_px, world.field.seed + place, world.field.mirrored)
@@ -60,7 +62,7 @@ class SimulatedCamera:
         self._due_s += 1 / self._settings.rate_hz
         self._sequence += 1
         if self._losses.random() >= self._world.field.camera_errors.lost_frames:
-            self._waiting.append(_Exposure(self._sequence, now.stamp_s, self._view(now), self._smear_px(now)))
+            self._waiting.append(_Exposure(self._sequence, now.stamp_s, self.view(now), self._smear_px(now)))
 
     def latest(self, now_s: float) -> Frame | None:
         """The newest picture that has arrived."""
@@ -76,9 +78,11 @@ class SimulatedCamera:
     def close(self) -> None:
         """Nothing to give back."""
 
-    def _view(self, now: Motion) -> View:
+    def view(self, now: Motion) -> View:
+        """What the camera, where it truly hangs, sees of the world at a moment."""
         looking = 1 if self._name is CameraName.FRONT else -1
         heading = now.pose.heading_rad
+        gaze = heading + self._yaw_rad + (0.0 if looking > 0 else pi)
         ahead_m = looking * self._settings.distance_m
         position = np.array(
             [
@@ -88,7 +92,7 @@ class SimulatedCamera:
             ]
         )
         # Seen from the rear camera, rolling and pitching go the other way.
-        turned = rotation(now.attitude, looking, heading + (0.0 if looking > 0 else pi), self._tilt_rad)
+        turned = rotation(now.attitude, looking, gaze, self._tilt_rad)
         return View(self._pinhole.width_px, self._pinhole.height_px, self._focal_px, position, turned)
 
     def _smear_px(self, now: Motion) -> tuple[float, float]:

@@ -60,6 +60,22 @@ class Centreline:
         on_line = np.asarray(self._curve(within))
         return np.asarray(on_line + (s - within)[..., None] * tangent + n[..., None] * normal)
 
+    def way_m(self, s: ArrayLike, n: float) -> Floats:
+        """How far it is along a line `n` to the left, to the point beside `s`, from the one beside 0.
+
+        The integral of 1 - n * curvature: a line inside of a bend is shorter.
+        """
+        return np.asarray(np.asarray(s, dtype=float) - n * self.heading(s))
+
+    def s_after(self, way_m: ArrayLike, n: float) -> Floats:
+        """The inverse of way_m: the s beside which one is after so far along a line `n` to the left."""
+        way = np.asarray(way_m, dtype=float)
+        if n * self.curvature_per_m == 0:
+            return way
+        ends = self.way_m([0.0, self.length_m], n)
+        within = np.interp(way, self.way_m(self._nodes, n), self._nodes)
+        return np.asarray(within + np.minimum(way - ends[0], 0) + np.maximum(way - ends[1], 0))
+
     def project(self, xy: ArrayLike) -> tuple[Floats, Floats, Floats]:
         """(s, n, heading of the line there) of the nearest point of the line to world points (..., 2)."""
         xy = np.asarray(xy, dtype=float)

@@ -11,7 +11,9 @@ from fieldnav.errors import SettingsError
 from fieldnav.messages import Floats, Side
 from fieldnav.settings.crop import CropProfile
 from fieldnav.settings.field import FieldSettings, Shape
+from fieldnav.settings.placement import check_places
 from fieldnav.simulation.centreline import Centreline
+from fieldnav.simulation.grass import grow_grass
 from fieldnav.simulation.plants import CROP_SPECIES, WEED_SPECIES
 from fieldnav.simulation.rowlines import RowLines, draw_rows
 from fieldnav.simulation.sowing import sow_crop
@@ -26,7 +28,8 @@ STEEPEST_SWING_RAD = pi / 2  # past this a bend would run back across the field
 class FieldPlan:
     """A sown field.
 
-    s_first_m, s_last_m: shape (lanes, rows), s of each row's first and last plant;
+    s_first_m, s_last_m: shape (lanes, rows), s of each row's first and last plant, of a row without plants
+    where it would have begun and ended; sown: shape (lanes, rows), which rows have plants;
     species: names that the plants' species index, the crop first.
     """
 
@@ -35,6 +38,7 @@ class FieldPlan:
     plants: Stand
     s_first_m: Floats
     s_last_m: Floats
+    sown: NDArray[np.bool_]
     species: tuple[str, ...]
     mirrored: bool
     tree: cKDTree
@@ -46,6 +50,19 @@ class FieldPlan:
     @property
     def rows_per_lane(self) -> int:
         return int(self.rows.row_n_m.shape[1])
+
+    @property
+    def sown_lanes(self) -> tuple[int, ...]:
+        """The lanes that have a crop to be driven over, in order; one without any row is passed by."""
+        return tuple(np.flatnonzero(self.sown.any(axis=1)).tolist())
+
+    def lane_span_m(self, lane: int) -> tuple[float, float]:
+        """s where the first row of a lane begins and the last one ends, of those that have plants.
+
+        Of a lane without any: where they would have.
+        """
+        there = self.sown[lane] if self.sown[lane].any() else np.ones(self.rows_per_lane, bool)
+        return float(self.s_first_m[lane, there].min()), float(self.s_last_m[lane, there].max())
 
     def plants_near(self, xy: ArrayLike, radius_m: float) -> NDArray[np.int64]:
         """Indices of the plants whose stems stand within `radius_m` of a world point (2,), in order."""
@@ -69,21 +86,25 @@ def sow(field: FieldSettings, crop: CropProfile, side: Side) -> FieldPlan:
     Lane k runs parallel to lane 0 at k times the lane pitch. A mirrored field is the exact mirror image of
     the plain field that is sown to the other side.
 
-    Raises SettingsError for a crop that cannot be drawn and for bends too tight for the lanes.
+    Raises SettingsError for a crop that cannot be drawn, for bends too tight for the lanes, and for gaps and
+    unsown rows that are not in the field.
     """
+    check_places(field, crop)
     line = _centreline(field)
     rows = draw_rows(field, crop, -side.sign if field.mirrored else side.sign)
-    plants = Stand.joined(
-        [sow_crop(field, crop, line, rows), grow_weeds(field, line, rows, len(WEED_SPECIES))]
-    )
+    crops = sow_crop(field, crop, line, rows)
+    wild = [grow_weeds(field, crop, line, rows, len(WEED_SPECIES)), grow_grass(field, line, rows)]
+    plants, order = Stand.joined([crops.plants, *wild]), slice(None)
     if field.mirrored:
         line, rows, plants = line.mirrored(), rows.mirrored(), plants.mirrored(crop.rows.per_lane)
+        order = slice(None, None, -1)
     return FieldPlan(
         centreline=line,
         rows=rows,
         plants=plants,
-        s_first_m=rows.start_m,
-        s_last_m=rows.end_m,
+        s_first_m=crops.first_m[:, order],
+        s_last_m=crops.last_m[:, order],
+        sown=crops.exists[:, order],
         species=(crop_species(crop.name), *WEED_SPECIES),
         mirrored=field.mirrored,
         tree=cKDTree(np.stack([plants.x_m, plants.y_m], axis=-1)),

@@ -1,12 +1,16 @@
 """Sowing the crop: every row's plants, with what germination, gaps and nature make of them."""
 
+from dataclasses import dataclass
+
 import numpy as np
+from numpy.typing import NDArray
 
 from fieldnav.messages import Floats
 from fieldnav.settings.crop import CropProfile
 from fieldnav.settings.field import FieldSettings
+from fieldnav.settings.placement import unsown_rows
 from fieldnav.simulation.centreline import Centreline
-from fieldnav.simulation.gaps import draw_gaps, outside
+from fieldnav.simulation.emergence import Flags, emerging
 from fieldnav.simulation.rowlines import RowLines
 from fieldnav.simulation.stand import Stand
 from fieldnav.simulation.streams import Stream, random_stream
@@ -21,32 +25,62 @@ LATE_SHARE = 0.04  # plants that came up late
 LATE_SIZE = 0.55
 
 
-def sow_crop(field: FieldSettings, crop: CropProfile, line: Centreline, rows: RowLines) -> Stand:
+@dataclass(frozen=True, slots=True)
+class Sown:
+    """The crop as it came up.
+
+    exists: shape (lanes, rows), which rows have plants; first_m, last_m: the same shape, s of each row's
+    first and last plant, of a row without plants where it would have begun and ended.
+    """
+
+    plants: Stand
+    exists: NDArray[np.bool_]
+    first_m: Floats
+    last_m: Floats
+
+
+def sow_crop(field: FieldSettings, crop: CropProfile, line: Centreline, rows: RowLines) -> Sown:
     """All crop plants of the field."""
+    exists = np.zeros(rows.start_m.shape, bool)
+    first_m, last_m = rows.start_m.copy(), rows.end_m.copy()
     stands = []
     for lane in range(field.lanes):
-        random = random_stream(field.seed, Stream.LANE_GAPS, lane)
-        gaps = draw_gaps(random, field.gaps.lane_gaps_per_10m, field.gaps.lane_gap_m, field.length_m)
-        stands += [_sow_row(field, crop, line, rows, lane, row, gaps) for row in range(crop.rows.per_lane)]
-    return Stand.joined(stands)
+        n = float(rows.lane_n_m[lane])
+        places = {row: _places(field, crop, line, rows, lane, row) for row in _drilled(field, crop, lane)}
+        ways = {row: line.way_m(s, n) for row, s in places.items()}
+        length_m = float(line.way_m(field.length_m, n))
+        for row, up in emerging(field, lane, ways, crop.plants.spacing_m, length_m).items():
+            stands.append(_stand(field, crop, line, rows, lane, row, places[row], up))
+            if up.any():
+                exists[lane, row] = True
+                first_m[lane, row], last_m[lane, row] = places[row][up].min(), places[row][up].max()
+    return Sown(Stand.joined(stands), exists, first_m, last_m)
 
 
-def _sow_row(
+def _drilled(field: FieldSettings, crop: CropProfile, lane: int) -> list[int]:
+    """The rows of a lane that were sown, counted from 0."""
+    if lane + 1 in field.unsown.lanes:
+        return []
+    left_out = unsown_rows(field, lane + 1)
+    return [row for row in range(crop.rows.per_lane) if row + 1 not in left_out]
+
+
+def _stand(
     field: FieldSettings,
     crop: CropProfile,
     line: Centreline,
     rows: RowLines,
     lane: int,
     row: int,
-    lane_gaps: Floats,
+    s: Floats,
+    up: Flags,
 ) -> Stand:
-    s = _places(field, crop, rows, lane, row)
-    kept = _survivors(field, s, lane, row, lane_gaps)
+    """The plants of a row whose seeds lie at `s`, shape (n,), of those that came `up`."""
     place = random_stream(field.seed, Stream.CROP_PLACE, lane, row, 1)
     scatter = np.clip(place.standard_normal(s.size), -SCATTER_CUT, SCATTER_CUT) * field.rows.scatter_m
-    xy = line.position(s, rows.row_n(lane, row, s) + scatter)[kept]
+    xy = line.position(s, rows.row_n(lane, row, s) + scatter)[up]
     size, look = _sizes(field, s.size, lane, row)
-    size, turn, sway, variant = size[kept], *(values[kept] for values in look)
+    size, turn, sway, variant = size[up], *(values[up] for values in look)
     count = len(size)
     return Stand(
         x_m=xy[:, 0],
@@ -63,26 +97,20 @@ def _sow_row(
     )
 
 
-def _places(field: FieldSettings, crop: CropProfile, rows: RowLines, lane: int, row: int) -> Floats:
-    """Where along its row each seed lies; the first and the last exactly at the row's ends."""
-    start, end = rows.start_m[lane, row], rows.end_m[lane, row]
-    count = max(2, round((end - start) / crop.plants.spacing_m) + 1)
+def _places(
+    field: FieldSettings, crop: CropProfile, line: Centreline, rows: RowLines, lane: int, row: int
+) -> Floats:
+    """The s of each seed of a row, evenly along the row itself; the first and the last at its very ends."""
+    start, end = float(rows.start_m[lane, row]), float(rows.end_m[lane, row])
+    n = float(rows.row_n_m[lane, row].mean())
+    way_start, way_end = line.way_m([start, end], n)
+    count = max(2, round((way_end - way_start) / crop.plants.spacing_m) + 1)
     random = random_stream(field.seed, Stream.CROP_PLACE, lane, row)
     jitter = random.standard_normal(count) * SPACING_JITTER * crop.plants.spacing_m
     jitter[[0, -1]] = 0
-    return np.asarray(np.clip(np.linspace(start, end, count) + jitter, start, end))
-
-
-def _survivors(
-    field: FieldSettings, s: Floats, lane: int, row: int, lane_gaps: Floats
-) -> np.ndarray[tuple[int, ...], np.dtype[np.bool_]]:
-    """Which seeds of a row came up. The first and the last always do: they are the row's ends."""
-    random = random_stream(field.seed, Stream.ROW_GAPS, lane, row)
-    row_gaps = draw_gaps(random, field.gaps.row_gaps_per_10m, field.gaps.row_gap_m, field.length_m)
-    germination = random_stream(field.seed, Stream.GERMINATION, lane, row)
-    up = germination.random(s.size) < field.gaps.germination
-    up[[0, -1]] = True
-    return up & outside(s, row_gaps) & outside(s, lane_gaps)
+    s = line.s_after(np.linspace(way_start, way_end, count) + jitter, n)
+    s[[0, -1]] = start, end
+    return np.asarray(np.clip(s, start, end))
 
 
 def _sizes(

@@ -30,11 +30,15 @@ class Stream(IntEnum):
     EXPOSURE = 16
     WIND = 17
     MOTTLE = 18
+    WEED_LINES = 19
+    WEED_LARGE = 20
+    GRASS = 21
     SHAKING = 101
     START = 102
     WHEEL_ERRORS = 103
     CALIBRATION = 104
     LOST_FRAMES = 105
+    CAMERA_YAW = 106
 
 
 def random_stream(seed: int, stream: Stream, *place: int) -> np.random.Generator:

@@ -91,3 +91,14 @@ def test_weeds_alone_can_make_a_field_too_large() -> None:
 
     with pytest.raises(SettingsError, match=r"weeds.per_m2 60"):
         check_size(weedy, BEET)
+
+
+def test_the_grass_about_a_field_counts_too() -> None:
+    edge = {"present": True, "depth_m": 10, "tufts_per_m2": 400}
+    edged = revised(load_field("demo"), {"lanes": 20, "length_m": 20, "grass_edge": edge})
+
+    with pytest.raises(
+        SettingsError, match=r"and \d+ tufts at grass_edge.tufts_per_m2 400; allowed is at most"
+    ):
+        check_size(edged, BEET)
+    check_size(revised(edged, {"grass_edge": {"present": False, "tufts_per_m2": 400}}), BEET)

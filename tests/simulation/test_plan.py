@@ -58,11 +58,6 @@ def test_the_same_seed_gives_the_same_plants_and_another_seed_others():
     assert not np.array_equal(first.plants.x_m[:50], other.plants.x_m[:50])
 
 
-def test_more_weeds_leave_the_crop_where_it_is():
-    few, many = (sow(make_field(weeds=Weeds(per_m2=n)), BEET, Side.RIGHT) for n in (1, 20))
-    assert np.array_equal(places(few)[few.plants.is_crop], places(many)[many.plants.is_crop])
-
-
 def test_a_mirrored_field_is_the_mirror_image_of_the_field_sown_to_the_other_side():
     curved = Rows(shape=Shape.CURVED)
     plain = sow(make_field(rows=curved), BEET, Side.RIGHT)
@@ -79,25 +74,6 @@ def test_rows_in_a_mirrored_field_count_from_right_to_left_too():
     crop = plan.plants.is_crop & (plan.plants.lane == 0)
     heights = [plan.plants.y_m[crop & (plan.plants.row == row)].mean() for row in range(3)]
     assert heights == sorted(heights)
-
-
-def test_germination_thins_the_rows_by_its_share():
-    field = make_field(length_m=200, gaps=Gaps(germination=0.7, row_gaps_per_10m=0), weeds=NO_WEEDS)
-    plan = sow(field, BEET, Side.RIGHT)
-    assert len(plan.plants) / (9 * 1001) == pytest.approx(0.7, abs=0.02)
-
-
-def test_lane_gaps_empty_all_rows_of_a_lane_and_keep_both_row_ends():
-    gaps = Gaps(germination=1, row_gaps_per_10m=0, lane_gaps_per_10m=0.8, lane_gap_m=(1.5, 1.5))
-    field = make_field(length_m=100, rows=TIDY_ROWS, gaps=gaps, weeds=NO_WEEDS)
-    plan = sow(field, BEET, Side.RIGHT)
-    for lane in range(3):
-        stems = np.sort(plan.plants.x_m[plan.plants.lane == lane])
-        holes = np.diff(stems)
-        assert 3 <= (holes > 1).sum() <= 12
-        assert holes.max() < 1.5 + 2 * 0.2 + 0.2
-        assert np.diff(stems[stems < 1]).max() < 0.4
-        assert np.diff(stems[stems > 99]).max() < 0.4
 
 
 def test_rows_end_raggedly_but_within_the_limit_and_where_their_last_plants_stand():
@@ -121,6 +97,30 @@ def test_rows_wander_as_far_as_asked_and_mostly_together():
     assert abs(np.corrcoef(straight[0, 0], straight[1, 0])[0, 1]) < 0.5
 
 
+def test_the_wander_of_the_rows_is_correlated_over_the_length_asked_for():
+    length_m = 5.0
+    rows = Rows(wander_m=0.02, wander_length_m=length_m, scatter_m=0)
+    plan = sow(make_field(length_m=1000, lanes=4, rows=rows, weeds=NO_WEEDS), BEET, Side.RIGHT)
+    lag = round(length_m / (plan.rows.s_m[1] - plan.rows.s_m[0]))
+    away = plan.rows.row_n_m - plan.rows.row_n_m.mean(axis=2, keepdims=True)
+    alike = (away[..., lag:] * away[..., :-lag]).mean() / (away**2).mean()
+    far_apart = (away[..., 4 * lag :] * away[..., : -4 * lag]).mean() / (away**2).mean()
+    assert alike == pytest.approx(np.exp(-1 / 2), abs=0.1)
+    assert abs(far_apart) < 0.15
+
+
+def test_plants_are_scattered_about_their_row_as_far_as_asked():
+    field = make_field(length_m=200, rows=Rows(wander_m=0.02, scatter_m=0.015), weeds=NO_WEEDS)
+    plan = sow(field, BEET, Side.RIGHT)
+    plants = plan.plants
+    aside = [
+        plants.y_m[i] - plan.rows.row_n(int(plants.lane[i]), int(plants.row[i]), plants.x_m[i])
+        for i in range(0, len(plants), 5)
+    ]
+    assert np.std(aside) == pytest.approx(0.015, rel=0.1)
+    assert np.mean(aside) == pytest.approx(0, abs=0.002)
+
+
 def test_uneven_row_distances_leave_the_lane_where_it_is():
     field = make_field(rows=Rows(spacing_error=0.1, wander_m=0), lanes=20)
     plan = sow(field, BEET, Side.RIGHT)
@@ -128,30 +128,6 @@ def test_uneven_row_distances_leave_the_lane_where_it_is():
     assert np.abs(distances - 0.35).max() <= 0.035
     assert distances.std() > 0.005
     assert np.allclose(plan.rows.row_n_m[:, :, 0].mean(axis=1), plan.rows.lane_n_m)
-
-
-@pytest.mark.parametrize("patches", [0.0, 0.8])
-def test_weeds_are_as_many_as_asked_for_and_few_on_the_headland(patches):
-    weeds = Weeds(per_m2=10, headland_per_m2=0.5, patches=patches)
-    plan = sow(make_field(length_m=100, lanes=5, weeds=weeds), BEET, Side.RIGHT)
-    weed = ~plan.plants.is_crop
-    width = np.ptp(plan.rows.row_n_m) + 2 * 1.6
-    inside = (plan.plants.x_m > 0) & (plan.plants.x_m < 100)
-    assert (weed & inside).sum() / (width * 100) == pytest.approx(10, rel=0.2)
-    assert 0 < (weed & ~inside).sum() / (width * 10) < 1.5
-    assert plan.plants.diameter_m[weed].min() >= 0.02
-    assert plan.plants.diameter_m[weed].max() <= 0.08
-
-
-def test_patchy_weeds_crowd_more_than_scattered_ones():
-    def crowding(patches: float) -> float:
-        weeds = Weeds(per_m2=8, patches=patches)
-        plan = sow(make_field(length_m=60, weeds=weeds), BEET, Side.RIGHT)
-        spots = places(plan)[~plan.plants.is_crop]
-        counts = np.histogram2d(spots[:, 0], spots[:, 1], bins=[np.arange(0, 60), np.arange(-4, 1)])[0]
-        return float(counts.var() / counts.mean())
-
-    assert crowding(0.8) > 2 * crowding(0.0)
 
 
 def test_plants_near_a_point_are_those_within_the_radius():

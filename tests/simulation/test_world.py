@@ -1,106 +1,35 @@
-"""The simulated robot moves as its wheels and the ground make it, and its cameras see what geometry says."""
+"""The simulated robot moves as its wheels and the ground make it."""
 
-from collections.abc import Callable, Iterator
-from math import radians, sin
+from collections.abc import Callable
+from math import pi, radians, sin, tan
 from typing import Any
 
 import numpy as np
 import pytest
 
-from drivers.can_log import open_virtual_pair
-from drivers.simulated_modules import SimulatedModules
-from drivers.thorvald import ThorvaldWheels
-from fieldnav.messages import CameraName, Side, Wheel, WheelSetpoint
-from fieldnav.settings.field import FieldSettings
-from fieldnav.settings.loading import load_crop, load_field, load_robot, revised
-from fieldnav.settings.robot import Robot
-from fieldnav.simulation.camera import SimulatedCamera
-from fieldnav.simulation.plan import sow
-from fieldnav.simulation.renderer import FieldRenderer, View
-from fieldnav.simulation.shaking import Attitude, Shaking, rotation
-from fieldnav.simulation.world import CORNERING_STIFFNESS, World, module_errors
+from drivers.simulated_motion import ModuleErrors
+from fieldnav.messages import Wheel, WheelSetpoint
+from fieldnav.settings.loading import load_field
+from fieldnav.simulation.body import SCRUB
+from fieldnav.simulation.world import CORNERING_STIFFNESS, module_errors
 
-TICK_S = 0.02
-SPEED_MPS = 0.5
-READY_S = 2.0
-"""By then the modules are up."""
+SPEED_MPS, SIDEWAYS_MPS = 0.5, 0.15
+TURNED_S = 4.0
+"""By then the wheels stand across."""
 
-FAULTLESS_CAMERA = {
-    "shake_deg": 0.0,
-    "bounce_m": 0.0,
-    "tilt_error_deg": 0.0,
-    "height_error_m": 0.0,
-    "focal_error": 0.0,
-}
-FAULTLESS_WHEELS = {"speed_error": 0.0, "steering_zero_deg": 0.0, "can_delay_s": 0.0}
-FAULTLESS: dict[str, Any] = {
-    "lanes": 1,
-    "length_m": 6,
-    "start": {"offset_m": 0.0, "heading_deg": 0.0},
-    "rows": {"wander_m": 0.0},
-    "ground": {"side_slope_deg": 0.0, "slip": 0.0},
-    "camera_errors": FAULTLESS_CAMERA,
-    "wheel_errors": FAULTLESS_WHEELS,
-}
-
+Make = Callable[..., Any]
 Setpoints = dict[Wheel, WheelSetpoint]
 AHEAD: Setpoints = {wheel: WheelSetpoint(SPEED_MPS, 0.0) for wheel in Wheel}
-STANDING: Setpoints = {wheel: WheelSetpoint(0.0, 0.0) for wheel in Wheel}
+ACROSS: Setpoints = {wheel: WheelSetpoint(SIDEWAYS_MPS, pi / 2) for wheel in Wheel}
+TURNING: Setpoints = {wheel: WheelSetpoint(0.0, pi / 2) for wheel in Wheel}
 OPPOSITE = {
     Wheel.FRONT_LEFT: Wheel.FRONT_RIGHT,
     Wheel.FRONT_RIGHT: Wheel.FRONT_LEFT,
     Wheel.REAR_LEFT: Wheel.REAR_RIGHT,
     Wheel.REAR_RIGHT: Wheel.REAR_LEFT,
 }
-
-
-class Driven:
-    """A world whose modules are driven through the real driver and bus."""
-
-    def __init__(self, field: FieldSettings, robot: Robot) -> None:
-        self.host, self.far_end = open_virtual_pair()
-        errors = module_errors(field.wheel_errors, field.seed, field.mirrored)
-        modules = SimulatedModules(robot, self.far_end, errors, field.wheel_errors.can_delay_s)
-        self.plan, self.field, self.robot = sow(field, load_crop(field.crop), Side.RIGHT), field, robot
-        self.world = World(self.plan, field, robot, modules)
-        self.wheels = ThorvaldWheels(robot, self.host)
-        self.ticks = 0
-        self.wheels.start(0.0)
-
-    def go(self, setpoints: Setpoints, seconds: float, look: Callable[[float], None] | None = None) -> None:
-        for _ in range(round(seconds / TICK_S)):
-            self.ticks += 1
-            now_s = self.ticks * TICK_S
-            self.world.advance(now_s)
-            self.wheels.poll(now_s)
-            if self.wheels.ready:
-                self.wheels.command(now_s, setpoints)
-            if look:
-                look(now_s)
-
-    def close(self) -> None:
-        self.host.shutdown()
-        self.far_end.shutdown()
-
-
-Make = Callable[..., Driven]
-
-
-@pytest.fixture
-def driven() -> Iterator[Make]:
-    """Makes a world without any fault but those asked for."""
-    made: list[Driven] = []
-
-    def make(robot: Robot | None = None, ready: bool = True, **changes: Any) -> Driven:
-        field = revised(load_field("demo"), FAULTLESS | changes)
-        made.append(Driven(field, robot or load_robot("bonnbot")))
-        if ready:
-            made[-1].go(STANDING, READY_S)
-        return made[-1]
-
-    yield make
-    for each in made:
-        each.close()
+FRONT, REAR = (Wheel.FRONT_LEFT, Wheel.FRONT_RIGHT), (Wheel.REAR_LEFT, Wheel.REAR_RIGHT)
+RIGHT = (Wheel.FRONT_RIGHT, Wheel.REAR_RIGHT)
 
 
 def test_without_faults_the_robot_drives_straight_ahead(driven: Make) -> None:
@@ -117,7 +46,7 @@ def test_without_faults_the_robot_drives_straight_ahead(driven: Make) -> None:
 
 @pytest.mark.parametrize("slope_deg", [-5.0, 2.0, 8.0])
 def test_a_side_slope_drifts_the_robot_downhill_by_the_slip_angle(slope_deg: float, driven: Make) -> None:
-    run = driven(ground={"side_slope_deg": slope_deg, "slip": 0.0})
+    run = driven(ground={"side_slope_deg": slope_deg})
     start = run.world.now.pose
 
     run.go(AHEAD, 4.0)
@@ -129,7 +58,7 @@ def test_a_side_slope_drifts_the_robot_downhill_by_the_slip_angle(slope_deg: flo
 
 
 def test_slip_costs_way(driven: Make) -> None:
-    firm, soft = driven(), driven(ground={"side_slope_deg": 0.0, "slip": 0.2})
+    firm, soft = driven(), driven(ground={"slip": 0.2})
 
     ways = []
     for run in (firm, soft):
@@ -142,7 +71,7 @@ def test_slip_costs_way(driven: Make) -> None:
 
 @pytest.mark.parametrize("seed", [1, 2, 3, 4])
 def test_unequal_wheel_speeds_turn_the_robot_to_the_slower_side(seed: int, driven: Make) -> None:
-    run = driven(seed=seed, wheel_errors=FAULTLESS_WHEELS | {"speed_error": 0.1})
+    run = driven(seed=seed, wheel_errors={"speed_error": 0.1})
     factors = {
         wheel: each.speed_factor for wheel, each in module_errors(run.field.wheel_errors, seed, False).items()
     }
@@ -188,102 +117,87 @@ def test_a_mirrored_field_gives_the_mirrored_path(driven: Make) -> None:
     )
 
 
-@pytest.mark.parametrize("name", CameraName, ids=lambda name: name.value)
-@pytest.mark.parametrize("pitch_deg", [-3.0, 0.0, 4.0])
-def test_pitching_moves_the_rows_in_the_picture_as_a_tilt_of_the_camera_does(
-    name: CameraName, pitch_deg: float
+def test_a_robot_that_crabs_over_a_side_slope_is_held_by_its_drives(driven: Make) -> None:
+    ends = []
+    for slope_deg in (0.0, 4.0):
+        run = driven(ground={"side_slope_deg": slope_deg})
+        run.go(TURNING, TURNED_S)
+        start = run.world.now.pose
+        run.go(ACROSS, 4.0)
+        end = run.world.now.pose
+        ends.append((end.x_m - start.x_m, end.y_m - start.y_m, end.heading_rad - start.heading_rad))
+
+    assert ends[0][1] == pytest.approx(4 * SIDEWAYS_MPS, abs=0.06)
+    assert ends[1] == pytest.approx(ends[0], abs=1e-6)
+
+
+@pytest.mark.parametrize("zero_deg", [-0.5, 2.0])
+def test_wheels_that_all_point_aside_carry_the_robot_aside_by_the_tangent(
+    zero_deg: float, driven: Make
 ) -> None:
-    settings = load_robot("bonnbot").cameras.get(name)
-    pinhole = settings.pinhole()
-    looking = 1 if name is CameraName.FRONT else -1
-    turned = rotation(Attitude(pitch_rad=radians(pitch_deg)), looking, 0.0, pinhole.tilt_rad)
-    view = View(
-        pinhole.width_px, pinhole.height_px, pinhole.focal_px, np.array([0.0, 0.0, pinhole.height_m]), turned
-    )
-    ground = np.array([[ahead, left] for ahead in (0.2, 0.5, 0.9) for left in (-0.4, 0.0, 0.3)])
+    run = driven(errors=dict.fromkeys(Wheel, ModuleErrors(1.0, radians(zero_deg))))
+    start = run.world.now.pose
 
-    seen = np.column_stack([ground, np.full(len(ground), -pinhole.height_m)]) @ view.projection.T
-    seen = seen[:, :2] / seen[:, 2:]
+    run.go(AHEAD, 4.0)
 
-    tilted = settings.model_copy(
-        update={"tilt_deg": settings.tilt_deg + looking * pitch_deg, "distance_m": 0.0}
-    )
-    np.testing.assert_allclose(seen, tilted.pinhole().to_image(ground), atol=1e-6)
+    end = run.world.now.pose
+    assert end.x_m - start.x_m > 1.5
+    assert end.y_m - start.y_m == pytest.approx(tan(radians(zero_deg)) * (end.x_m - start.x_m), rel=0.02)
+    assert end.heading_rad == pytest.approx(start.heading_rad, abs=1e-6)
 
 
-@pytest.mark.parametrize("name", CameraName, ids=lambda name: name.value)
-def test_a_robot_whose_left_side_is_up_sees_what_lies_ahead_moved_aside(name: CameraName) -> None:
-    pinhole = load_robot("bonnbot").cameras.get(name).pinhole()
-    looking = 1 if name is CameraName.FRONT else -1
-    turned = rotation(Attitude(roll_rad=0.02), looking, 0.0, pinhole.tilt_rad)
-    view = View(pinhole.width_px, pinhole.height_px, pinhole.focal_px, np.array([0.0, 0.0, 1.0]), turned)
-
-    u, _, depth = view.projection @ np.array([0.5, 0.0, -1.0])
-
-    # The ground turns about the camera: to the robot's right, which the rear camera sees on its left.
-    assert u / depth - pinhole.centre_x_px == pytest.approx(
-        looking * pinhole.focal_px * sin(0.02) / depth, rel=1e-6
-    )
+def turned_over_way(run: Any) -> float:
+    """Change of heading over the way driven, rad/m, while all wheels are told to roll straight ahead."""
+    start = run.world.now.pose
+    run.go(AHEAD, 3.0)
+    end = run.world.now.pose
+    return float((end.heading_rad - start.heading_rad) / np.hypot(end.x_m - start.x_m, end.y_m - start.y_m))
 
 
-def test_a_robot_that_stands_does_not_shake_and_one_that_drives_does_as_set() -> None:
-    errors = load_field("demo").camera_errors.model_copy(update={"shake_deg": 1.0, "bounce_m": 0.02})
-    shakings = [Shaking(errors, seed, False) for seed in range(30)]
+def test_front_and_rear_wheels_that_point_apart_turn_the_robot_as_far_as_its_rolling_wheels_let(
+    driven: Make,
+) -> None:
+    zero_rad = radians(0.5)
+    errors = {wheel: ModuleErrors(1.0, zero_rad if wheel in FRONT else -zero_rad) for wheel in Wheel}
+    run = driven(errors=errors)
+    x_m, y_m = run.robot.geometry.position_m(Wheel.FRONT_LEFT)
 
-    standing = [shaking.at(stamp_s, 0.0) for shaking in shakings for stamp_s in np.arange(0, 1, 0.1)]
-    driving = [shaking.at(stamp_s, 0.5) for shaking in shakings for stamp_s in np.arange(0, 30, 0.1)]
+    curvature = turned_over_way(run)
 
-    assert all(each == Attitude() for each in standing)
-    for angles in ([each.roll_rad for each in driving], [each.pitch_rad for each in driving]):
-        assert np.std(angles) == pytest.approx(radians(1.0), rel=0.1)
-    assert max(abs(each.height_m) for each in driving) < 0.03
-
-
-def small(robot: Robot) -> Robot:
-    """A robot whose cameras give small pictures, which are quickly drawn."""
-    cameras = {
-        name: getattr(robot.cameras, name).model_copy(update={"width_px": 96, "height_px": 54})
-        for name in ("front", "rear")
-    }
-    return robot.model_copy(update={"cameras": robot.cameras.model_copy(update=cameras)})
+    # Sideways the wheels ask for zero_rad / x, rolling at one speed on both sides for none.
+    sideways, rolling = (SCRUB * x_m) ** 2, y_m**2
+    assert curvature == pytest.approx(zero_rad / x_m * sideways / (sideways + rolling), rel=0.05)
 
 
-def test_frames_come_late_and_some_never_as_set(driven: Make) -> None:
-    latency_s, lost = 0.11, 0.3
-    run = driven(
-        small(load_robot("bonnbot")),
-        ready=False,
-        camera_errors=FAULTLESS_CAMERA | {"latency_s": latency_s, "lost_frames": lost},
-    )
-    renderer = FieldRenderer(run.plan, run.field, load_crop(run.field.crop))
-    cameras = {name: SimulatedCamera(name, run.world, renderer) for name in CameraName}
-    arrived: dict[CameraName, list[tuple[int, float, float]]] = {name: [] for name in CameraName}
+def test_faster_wheels_on_the_right_turn_the_robot_left_as_far_as_the_others_let(driven: Make) -> None:
+    error = 0.02
+    run = driven(errors={wheel: ModuleErrors(1 + error * (wheel in RIGHT), 0.0) for wheel in Wheel})
+    x_m, y_m = run.robot.geometry.position_m(Wheel.FRONT_LEFT)
 
-    def look(now_s: float) -> None:
-        for name, camera in cameras.items():
-            frame = camera.latest(now_s)
-            if frame and (not arrived[name] or arrived[name][-1][0] != frame.sequence):
-                arrived[name].append((frame.sequence, frame.stamp_s, now_s))
+    curvature = turned_over_way(run)
 
-    run.go(AHEAD, 10.0, look)
-
-    rate_hz = run.robot.cameras.front.rate_hz
-    for frames in arrived.values():
-        sequence, stamp_s, seen_s = np.array(frames).T
-        late_s = seen_s - stamp_s
-        assert (late_s >= latency_s - 1e-9).all() and (late_s < latency_s + 2 * TICK_S).all()
-        assert len(frames) / sequence[-1] == pytest.approx(1 - lost, abs=0.1)
-        np.testing.assert_allclose(np.diff(stamp_s), np.diff(sequence) / rate_hz, atol=0.011)
-    assert arrived[CameraName.FRONT][0][1] != arrived[CameraName.REAR][0][1], "they do not expose at once"
+    sideways, rolling = (SCRUB * x_m) ** 2, y_m**2
+    assert curvature == pytest.approx(error / (2 * y_m) * rolling / (sideways + rolling), rel=0.05)
 
 
-def test_the_same_frame_is_given_until_a_newer_one_arrives(driven: Make) -> None:
-    run = driven(small(load_robot("bonnbot")))
-    camera = SimulatedCamera(
-        CameraName.FRONT, run.world, FieldRenderer(run.plan, run.field, load_crop(run.field.crop))
-    )
+def test_module_errors_are_drawn_from_all_of_plus_and_minus_what_is_set() -> None:
+    errors = load_field("demo").wheel_errors
+    drawn = [each for seed in range(50) for each in module_errors(errors, seed, False).values()]
 
-    run.go(AHEAD, 0.5)
-    now_s = run.world.now.stamp_s
+    for values, most in (
+        ([each.speed_factor - 1 for each in drawn], 0.02),
+        ([each.steering_zero_rad for each in drawn], radians(0.5)),
+    ):
+        assert np.abs(values).max() <= most
+        assert min(values) < -0.9 * most < 0.9 * most < max(values)
 
-    assert camera.latest(now_s) is camera.latest(now_s) is not None
+
+def test_a_delay_on_the_bus_costs_the_way_that_is_driven_in_it(driven: Make) -> None:
+    delay_s, ways = 0.1, []
+    for can_delay_s in (0.0, delay_s):
+        run = driven(wheel_errors={"can_delay_s": can_delay_s})
+        start = run.world.now.pose.x_m
+        run.go(AHEAD, 3.0)
+        ways.append(run.world.now.pose.x_m - start)
+
+    assert ways[0] - ways[1] == pytest.approx(delay_s * SPEED_MPS, abs=0.2 * delay_s * SPEED_MPS)

@@ -14,7 +14,8 @@ from fieldnav.simulation.texture import SOIL_MEAN, SOIL_STEPS
 
 COLOURS = 256
 CROP_TONES, CROP_LIGHTS = 6, 14
-WEED_TONES = 2
+WEED_TONES = 1  # many steps of brightness rather, else the mottle blotches large leaves
+MIDDLE_TONE = 0.5
 MOTTLE = 2  # steps of brightness, up and down, that are added to the painted number for texture
 DARKEST, BRIGHTEST = 0.3, 1.15  # brightness of leaves at the two ends of what is painted
 STRAW_BGR = (150.0, 196.0, 214.0)
@@ -79,7 +80,8 @@ def _soil_ramp(soil_bgr: Floats) -> Floats:
 
 def _leaf_colours(palette: NDArray[np.uint8], band: Band) -> Floats:
     """A palette's tones, each from dark to bright, shape (tones * lights, 3)."""
-    anchors, places = np.linspace(0, 1, len(palette)), np.linspace(0, 1, band.tones)
+    anchors = np.linspace(0, 1, len(palette))
+    places = np.linspace(0, 1, band.tones) if band.tones > 1 else np.array([MIDDLE_TONE])
     tones = np.stack([np.interp(places, anchors, palette[:, channel]) for channel in range(3)], axis=-1)
     light = band.light[:, None]
     tint = 1 + (np.array(LEAF_SHADE_BGR) - 1) * np.clip(1 - light, 0, 1)
