@@ -13,7 +13,7 @@ class RowEnd(Settings):
     """How a lane's end is told from a gap in it: by probability, over distance (paper III-A.3)."""
 
     longest_gap_m: float = Field(
-        default=2.0,
+        default=2.5,
         ge=0,
         le=10,
         description="of all rows at once; so far the robot goes on without rows before it stops with a fault",
@@ -33,7 +33,10 @@ class Recognition(Settings):
         default=0.0, ge=0, le=2000, description="lambda: matches at or below are left out"
     )
     new_row_distance: float = Field(
-        default=295.0, gt=0, le=2000, description="tau: mean distance of a new row's matches"
+        default=315.0,
+        gt=0,
+        le=2000,
+        description="tau: mean distance of a new row's matches; the paper's measure, specific to a crop",
     )
     confirm_frames: int = Field(default=3, ge=1, le=100)
 
