@@ -21,6 +21,7 @@ class Figure:
     """One figure measured in this run.
 
     case: the field, crop or set; metric: its name with the unit; source: where `best_known` comes from.
+    With `goal_std` a goal is reached when the deviation is no larger than that, too.
     """
 
     case: str
@@ -31,12 +32,15 @@ class Figure:
     best_known: float | None = None
     source: str = ""
     better: Better = Better.HIGHER
+    goal_std: float | None = None
 
     @property
     def met(self) -> bool | None:
         """Whether the goal is reached; None for a figure without one."""
         if self.goal is None:
             return None
+        if self.goal_std is not None and not (self.std is not None and self.std <= self.goal_std):
+            return False
         return self.value >= self.goal if self.better is Better.HIGHER else self.value <= self.goal
 
 
@@ -63,11 +67,21 @@ class LeftOut:
 
 
 @dataclass(frozen=True, slots=True)
+class Failure:
+    """What went wrong in a run that was driven, and the command that drives it again."""
+
+    case: str
+    reason: str
+    again: str
+
+
+@dataclass(frozen=True, slots=True)
 class Report:
-    """Everything that one benchmark measured, and what it left out."""
+    """Everything that one benchmark measured, what it left out, and what failed where something can."""
 
     figures: tuple[Figure, ...]
     left_out: tuple[LeftOut, ...] = ()
+    failures: tuple[Failure, ...] | None = None
 
 
 Progress = Callable[[str, int, int], None]

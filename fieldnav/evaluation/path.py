@@ -1,12 +1,15 @@
 """The true path of a simulated run and the plants it cost, noted tick by tick beside the mission."""
 
 from array import array
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
+from contextvars import ContextVar
 from dataclasses import dataclass, field
-from math import cos, hypot, sin
+from math import cos, hypot, sin, sqrt
 
 import numpy as np
 
-from fieldnav.messages import Floats
+from fieldnav.messages import Floats, Wheel, WheelSetpoint
 from fieldnav.mission.tick import Tick
 from fieldnav.simulation.world import World
 from states.names import Path as StatePath
@@ -22,14 +25,17 @@ def _numbers() -> "array[float]":
 
 @dataclass(slots=True)
 class TruePath:
-    """Where the robot was at each tick, in which state, and what it believed of lane and rows.
+    """Where the robot was at each tick, how it moved, in which state, and what it believed of lane and rows.
 
-    Bare numbers are kept in arrays: an hour has 180,000 ticks.
+    Bare numbers are kept in arrays: an hour has 180,000 ticks. `steering_rate_rps` is the wheels' rms.
     """
 
+    stamp_s: "array[float]" = field(default_factory=_numbers)
     x_m: "array[float]" = field(default_factory=_numbers)
     y_m: "array[float]" = field(default_factory=_numbers)
     heading_rad: "array[float]" = field(default_factory=_numbers)
+    yaw_rate_rps: "array[float]" = field(default_factory=_numbers)
+    steering_rate_rps: "array[float]" = field(default_factory=_numbers)
     states: list[StatePath] = field(default_factory=list)
     lanes: list[int] = field(default_factory=list)
     rows_passed: list[int] = field(default_factory=list)
@@ -39,27 +45,57 @@ class TruePath:
         return np.stack([self.x_m, self.y_m], axis=1)
 
 
+_KEPT: ContextVar["list[PathObserver] | None"] = ContextVar("kept", default=None)
+
+
+@contextmanager
+def paths_kept() -> "Iterator[list[PathObserver]]":
+    """The true paths of the runs that are driven within, for who judges more than a summary tells."""
+    kept: list[PathObserver] = []
+    token = _KEPT.set(kept)
+    try:
+        yield kept
+    finally:
+        _KEPT.reset(token)
+
+
 class PathObserver:
     """Watches the world beside the mission; the mission cannot see it."""
 
     def __init__(self, world: World) -> None:
-        self._world = world
+        self.world = world
         self.path = TruePath()
         self.run_over: set[int] = set()
+        self._steering: tuple[float, Mapping[Wheel, WheelSetpoint]] | None = None
+        kept = _KEPT.get()
+        if kept is not None:
+            kept.append(self)
 
     def watch(self, tick: Tick) -> None:
-        pose = self._world.now.pose
+        pose = self.world.now.pose
+        self.path.stamp_s.append(tick.now_s)
         self.path.x_m.append(pose.x_m)
         self.path.y_m.append(pose.y_m)
         self.path.heading_rad.append(pose.heading_rad)
+        self.path.yaw_rate_rps.append(self.world.now.twist.yaw_rate_rps)
+        self.path.steering_rate_rps.append(self._steering_rate(tick.now_s))
         self.path.states.append(tick.state)
         self.path.lanes.append(tick.lane)
         self.path.rows_passed.append(tick.rows_passed)
         self._roll_over()
 
+    def _steering_rate(self, now_s: float) -> float:
+        """Root mean square over the wheels since the tick before."""
+        before, wheels = self._steering, self.world.wheels()
+        self._steering = now_s, wheels
+        if before is None or now_s <= before[0]:
+            return 0.0
+        turned = [state.steering_rad - before[1][wheel].steering_rad for wheel, state in wheels.items()]
+        return sqrt(sum(turn * turn for turn in turned) / len(turned)) / (now_s - before[0])
+
     def _roll_over(self) -> None:
         """Note the crop plants whose stems the wheels' contact patches touch."""
-        world, geometry = self._world, self._world.robot.geometry
+        world, geometry = self.world, self.world.robot.geometry
         pose, plants = world.now.pose, world.plan.plants
         c, s = cos(pose.heading_rad), sin(pose.heading_rad)
         half_width_m = geometry.wheel_width_m / 2 + STEM_M

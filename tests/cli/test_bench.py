@@ -10,9 +10,10 @@ import pytest
 from fieldnav import __version__
 from fieldnav.cli.app import run
 from fieldnav.cli.bench_report import document, markdown, report_table
+from fieldnav.cli.bench_wide import wide_markdown, wide_table
 from fieldnav.cli.checkout import commit, machine
 from fieldnav.cli.console import out
-from fieldnav.evaluation.benchmark import Better, Figure, LeftOut, Report
+from fieldnav.evaluation.benchmark import Better, Failure, Figure, LeftOut, Report
 
 REPORT = Report(
     (
@@ -160,12 +161,94 @@ def test_a_folder_for_the_plot_that_cannot_be_made_is_refused_before_measuring(
     assert f"--plot {tmp_path}/file/plots: cannot be written here" in error(capsys)
 
 
-@pytest.mark.parametrize("arguments", [["bench"], ["bench", "detection"], ["bench", "speed"]], ids=" ".join)
-def test_help_reads(arguments: list[str], capsys: pytest.CaptureFixture[str]) -> None:
-    assert run([*arguments, "--help"]) == 0
+HELP = {
+    "bench": ("detection", "navigation", "switching", "speed"),
+    "bench detection": ("--quick", "FIELDNAV_DATA"),
+    "bench speed": ("--quick", "FIELDNAV_DATA"),
+    "bench navigation": ("--quick", "--fields", "--seeds", "--length", "--jobs", "--plot"),
+    "bench switching": ("--quick", "--switches", "--seed", "--jobs", "--plot"),
+}
+
+
+@pytest.mark.parametrize("command", HELP)
+def test_help_reads(command: str, capsys: pytest.CaptureFixture[str]) -> None:
+    assert run([*command.split(), "--help"]) == 0
 
     said = capsys.readouterr().out
-    assert "--quick" in said and "FIELDNAV_DATA" in said if len(arguments) > 1 else "detection" in said
+    assert all(word in said for word in HELP[command]), said
+
+
+@pytest.mark.parametrize(
+    ("arguments", "said"),
+    [
+        (["navigation", "--fields", "demo"], "--fields demo: unknown; allowed are sim-curved, "),
+        (["navigation", "--seeds", "0"], "--seeds"),
+        (["navigation", "--length", "3"], "--length"),
+        (["navigation", "--jobs", "0"], "--jobs"),
+        (["switching", "--switches", "0"], "--switches"),
+        (["switching", "--seed", "-1"], "--seed"),
+    ],
+    ids=" ".join,
+)
+def test_missions_that_cannot_be_driven_are_refused(
+    arguments: list[str], said: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert run(["bench", *arguments]) == 2
+
+    assert said in error(capsys)
+
+
+@pytest.mark.parametrize("name", ["navigation", "switching"])
+def test_a_folder_for_the_pictures_that_cannot_be_made_is_refused_before_driving(
+    name: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    (tmp_path / "file").touch()
+
+    assert run(["bench", name, "--plot", str(tmp_path / "file" / "plots")]) == 2
+
+    assert f"--plot {tmp_path}/file/plots: cannot be written here" in error(capsys)
+
+
+def test_a_failure_is_a_line_of_the_table_and_of_the_document(capsys: pytest.CaptureFixture[str]) -> None:
+    failure = Failure("beans, seed 4", "no row in sight", "fieldnav simulate beans --seed 4")
+    report = Report((), failures=(failure,))
+
+    out().print(report_table("title", report))
+
+    line = " ".join(capsys.readouterr().out.splitlines()[-1].split())
+    assert line == "beans, seed 4 failed: no row in sight; again: fieldnav simulate beans --seed 4"
+    assert "failed: no row in sight" in markdown("title", report)
+    assert document("navigation", "abc", report)["failures"] == [
+        {"case": "beans, seed 4", "reason": "no row in sight", "again": "fieldnav simulate beans --seed 4"}
+    ]
+    assert document("navigation", "abc", Report((), failures=()))["failures"] == []
+
+
+def test_a_goal_with_a_deviation_is_shown_with_it(capsys: pytest.CaptureFixture[str]) -> None:
+    figure = Figure("field", "error", 1.0, 0.9004, goal=1.2, goal_std=0.9, better=Better.LOWER)
+
+    out().print(report_table("", Report((figure,))))
+
+    line = " ".join(capsys.readouterr().out.splitlines()[-1].split())
+    assert line == "field error 1.0000 +- 0.9004 <= 1.2 +- 0.9 no"
+    assert document("bench", "abc", Report((figure,)))["rows"][0]["goal_std"] == 0.9
+
+
+def test_a_lane_is_driven_both_ways_judged_and_drawn(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    driving = ["navigation", "--quick", "--fields", "potato", "--length", "4"]
+    assert run(["bench", *driving, "--json", "--plot", str(tmp_path)]) == 0
+
+    captured = capsys.readouterr()
+    printed = json.loads(captured.out)
+    assert captured.err == "" and printed["failures"] == [] and printed["left_out"] == []
+    rows = {(row["case"], row["metric"]): row for row in printed["rows"]}
+    assert {case for case, _ in rows} == {"potato", "potato (paper's finder and control)"}
+    error_row = rows["potato", "cross-track error (cm)"]
+    assert 0 < error_row["value"] < 10 and error_row["goal_std"] == 0.6
+    assert rows["potato", "length driven (%)"]["value"] == 100
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["navigation-potato.png", "navigation.png"]
 
 
 def git(folder: Path, *arguments: str) -> str:
@@ -202,3 +285,45 @@ def test_an_installed_fieldnav_names_its_version_even_within_someone_elses_repos
 
 def test_the_machine_is_named_with_its_processors() -> None:
     assert "processor" in machine()
+
+
+WIDE = Report(
+    (
+        Figure("beans", "error (cm)", 1.0, 0.5, 0.9, 3.49, "the paper", Better.LOWER, 0.7),
+        Figure("beans (paper's)", "error (cm)", 2.0, 0.5, None, 3.49, "the paper", Better.LOWER),
+        Figure("beans", "stops", 0.0, goal=0.0, better=Better.LOWER),
+    ),
+    (LeftOut("a gap", "the lane is too short for its gap"),),
+    (Failure("beans, seed 4", "no row in sight", "fieldnav simulate beans --seed 4"),),
+)
+
+
+def test_cases_that_are_alike_are_a_line_each_above_their_goals_and_the_best_known(
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    out().print(wide_table("title", WIDE))
+
+    lines = [" ".join(line.split()) for line in capsys.readouterr().out.splitlines()]
+    assert lines == [
+        "title",
+        "case error (cm) stops",
+        "beans 1.00 +- 0.50 (missed) 0.00",
+        "goal <= 0.9 +- 0.7 <= 0",
+        "best known 3.49 (the paper)",
+        "beans (paper's) 2.00 +- 0.50",
+        "a gap: left out: the lane is too short for its gap",
+        "beans, seed 4: failed: no row in sight; again: fieldnav simulate beans --seed 4",
+    ]
+
+
+def test_the_wide_table_of_a_document_says_the_same() -> None:
+    lines = wide_markdown("title", WIDE).splitlines()
+
+    assert lines[2:7] == [
+        "| case | error (cm) | stops |",
+        "| --- | ---: | ---: |",
+        "| beans | 1.00 +- 0.50 (missed) | 0.00 |",
+        "|   goal | <= 0.9 +- 0.7 | <= 0 |",
+        "|   best known | 3.49 (the paper) |  |",
+    ]
+    assert lines[-1].startswith("beans, seed 4: failed: no row in sight; again: ")
