@@ -58,7 +58,8 @@ def drive(
     field = revised(load_field("demo"), {"lanes": lanes, "length_m": length_m, "mirrored": mirrored})
     watcher = Watcher()
     run = Run(field, load_crop(field.crop), quick_robot(), lanes, side, parent)
-    return (*simulate(run, [watcher]), watcher)
+    done = simulate(run, [watcher])
+    return done.directory, done.summary, watcher
 
 
 def transitions(lines: list[Line]) -> list[tuple[str, str, str]]:

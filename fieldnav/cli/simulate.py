@@ -12,9 +12,7 @@ from fieldnav.cli.console import out, print_json
 from fieldnav.messages import Side
 
 if TYPE_CHECKING:
-    from fieldnav.journal.directory import RunDirectory
-    from fieldnav.journal.summary import Summary
-    from fieldnav.mission.simulated import Run
+    from fieldnav.mission.simulated import Run, Simulated
     from fieldnav.settings.field import FieldSettings
 
 STOPPED = 1
@@ -77,22 +75,22 @@ def _drive_for_programs(run: "Run") -> int:
     from fieldnav.journal.summary import to_json  # noqa: PLC0415
     from fieldnav.mission.simulated import simulate as drive  # noqa: PLC0415
 
-    directory, summary = drive(run)
-    print_json({"run": str(directory.path), **json.loads(to_json(summary))})
-    return 0 if succeeded(summary) else STOPPED
+    done = drive(run)
+    print_json({"run": str(done.directory.path), **json.loads(to_json(done.summary))})
+    return 0 if succeeded(done.summary) else STOPPED
 
 
 def _drive_for_people(run: "Run") -> int:
     """Drive and print a table; returns the exit status."""
     from fieldnav.cli.mission_report import report, succeeded  # noqa: PLC0415 - see _run
 
-    directory, summary = _drive_watched(run)
-    out().print(report(directory, summary))
-    print(f"run directory: {directory.path}")
-    return 0 if succeeded(summary) else STOPPED
+    done = _drive_watched(run)
+    out().print(report(done.directory, done.summary))
+    print(f"run directory: {done.directory.path}")
+    return 0 if succeeded(done.summary) else STOPPED
 
 
-def _drive_watched(run: "Run") -> "tuple[RunDirectory, Summary]":
+def _drive_watched(run: "Run") -> "Simulated":
     """Drive with one live line on the terminal; quiet where there is none."""
     from rich.console import Console  # noqa: PLC0415
     from rich.live import Live  # noqa: PLC0415

@@ -3,7 +3,7 @@
 import shutil
 from dataclasses import dataclass
 
-from fieldnav.evaluation.path import PathObserver, paths_kept
+from fieldnav.evaluation.path import PathObserver
 from fieldnav.journal.journal import read
 from fieldnav.journal.summary import Summary
 from fieldnav.mission.simulated import Run, simulate
@@ -20,9 +20,8 @@ class Driven:
 
 def drive(run: Run) -> Driven:
     """Drive a run and remove its directory. Raises FieldnavError as `simulate` does."""
-    with paths_kept() as kept:
-        directory, summary = simulate(run)
-    lines = read(directory.journal)
-    shutil.rmtree(directory.path)
-    reason = "" if summary.completed or not lines else lines[-1].reason
-    return Driven(kept[-1], summary, reason)
+    run_made = simulate(run)
+    lines = read(run_made.directory.journal)
+    shutil.rmtree(run_made.directory.path)
+    reason = "" if run_made.summary.completed or not lines else lines[-1].reason
+    return Driven(run_made.driven, run_made.summary, reason)

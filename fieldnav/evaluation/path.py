@@ -1,9 +1,7 @@
 """The true path of a simulated run and the plants it cost, noted tick by tick beside the mission."""
 
 from array import array
-from collections.abc import Iterator, Mapping
-from contextlib import contextmanager
-from contextvars import ContextVar
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from math import cos, hypot, sin, sqrt
 
@@ -45,20 +43,6 @@ class TruePath:
         return np.stack([self.x_m, self.y_m], axis=1)
 
 
-_KEPT: ContextVar["list[PathObserver] | None"] = ContextVar("kept", default=None)
-
-
-@contextmanager
-def paths_kept() -> "Iterator[list[PathObserver]]":
-    """The true paths of the runs that are driven within, for who judges more than a summary tells."""
-    kept: list[PathObserver] = []
-    token = _KEPT.set(kept)
-    try:
-        yield kept
-    finally:
-        _KEPT.reset(token)
-
-
 class PathObserver:
     """Watches the world beside the mission; the mission cannot see it."""
 
@@ -67,9 +51,6 @@ class PathObserver:
         self.path = TruePath()
         self.run_over: set[int] = set()
         self._steering: tuple[float, Mapping[Wheel, WheelSetpoint]] | None = None
-        kept = _KEPT.get()
-        if kept is not None:
-            kept.append(self)
 
     def watch(self, tick: Tick) -> None:
         pose = self.world.now.pose

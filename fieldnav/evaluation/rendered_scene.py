@@ -70,7 +70,7 @@ class Scene:
 
     def random_place(self, random: np.random.Generator) -> Place:
         """Somewhere in a lane, looking along it or against it, with rows as far as the camera sees."""
-        lane = int(random.integers(self.plan.lanes))
+        lane = self.plan.sown_lanes[int(random.integers(len(self.plan.sown_lanes)))]
         first_m = float(self.plan.s_first_m[lane].max()) + REACH_M
         last_m = float(self.plan.s_last_m[lane].min()) - REACH_M
         offset, turn = random.uniform(-1, 1, 2) * (WIDEST_OFFSET_M, WIDEST_HEADING_RAD)

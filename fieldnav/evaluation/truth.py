@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 from fieldnav.evaluation.path import PathObserver
 from fieldnav.journal.summary import CrossTrack, Heading, Headland, Truth
 from fieldnav.messages import Direction, Floats
+from fieldnav.simulation.plan import FieldPlan
 from fieldnav.simulation.world import World
 from states.names import Phase, Sidestep, direction_of
 
@@ -36,11 +37,13 @@ def driven(world: World, observer: PathObserver) -> Driven:
     plan, path = world.plan, observer.path
     keep = np.array([bool({Phase.FOLLOW, Phase.EXIT} & set(state)) for state in path.states], dtype=bool)
     xy, heading = path.xy()[keep], np.array(path.heading_rad)[keep]
-    places = [plan.in_lane(lane, xy) for lane in range(plan.lanes)]
+    lanes = np.array(plan.sown_lanes)
+    places = [plan.in_lane(lane, xy) for lane in plan.sown_lanes]
     s, offset, along = (np.stack([place[i] for place in places]) for i in range(3))
-    nearest = np.abs(offset).argmin(axis=0)
-    pick = (nearest, np.arange(len(nearest)))
-    first, last = plan.s_first_m.mean(axis=1)[nearest], plan.s_last_m.mean(axis=1)[nearest]
+    which = np.abs(offset).argmin(axis=0)
+    pick = (which, np.arange(len(which)))
+    nearest = lanes[which]
+    first, last = (_mean_ends_m(plan, ends_m)[nearest] for ends_m in (plan.s_first_m, plan.s_last_m))
     turned = heading - along[pick]
     turned = np.arctan2(np.sin(turned), np.cos(turned))
     inside = (s[pick] >= first) & (s[pick] <= last)
@@ -80,14 +83,11 @@ def headland(world: World, observer: PathObserver) -> Headland:
         if direction is None or state[-1] is not Sidestep.SAMPLING or path.states[index - 1] == state:
             continue
         at = np.array([path.x_m[index], path.y_m[index]])
-        places = [plan.in_lane(lane, at) for lane in range(plan.lanes)]
-        lane = int(np.argmin([abs(float(place[1])) for place in places]))
+        places = {lane: plan.in_lane(lane, at) for lane in plan.sown_lanes}
+        lane = min(places, key=lambda each: abs(float(places[each][1])))
         camera_m = world.robot.cameras.get(direction.trailing).distance_m
-        s = float(places[lane][0])
-        if direction is Direction.FORWARD:
-            used.append(s - camera_m - float(plan.s_last_m[lane].max()))
-        else:
-            used.append(float(plan.s_first_m[lane].min()) - s - camera_m)
+        s, (first_m, last_m) = float(places[lane][0]), plan.lane_span_m(lane)
+        used.append((s - last_m if direction is Direction.FORWARD else first_m - s) - camera_m)
     if not used:
         return Headland()
     return Headland(mean=_rounded(np.mean(used)), max=_rounded(np.max(used)))
@@ -96,17 +96,24 @@ def headland(world: World, observer: PathObserver) -> Headland:
 def _coverage(world: World, run: Driven, lanes: int) -> tuple[int, int]:
     """How many of the lanes to be driven were missed, and how many of all were driven more than once."""
     missed = repeated = 0
-    for lane in range(world.plan.lanes):
+    plan = world.plan
+    length_m = _mean_ends_m(plan, plan.s_last_m) - _mean_ends_m(plan, plan.s_first_m)
+    for lane in plan.sown_lanes:
         here = run.lane == lane
-        length_m = float(world.plan.s_last_m[lane].mean() - world.plan.s_first_m[lane].mean())
-        cells = length_m / CELL_M
+        cells = float(length_m[lane]) / CELL_M
         shares = [
             len(np.unique(np.floor(run.s_m[here & (run.believed == number)] / CELL_M))) / cells
             for number in np.unique(run.believed)
         ]
-        missed += lane < lanes and max(shares, default=0.0) < COVERED
+        missed += lane in plan.sown_lanes[:lanes] and max(shares, default=0.0) < COVERED
         repeated += sum(share > HALF for share in shares) > 1
     return missed, repeated
+
+
+def _mean_ends_m(plan: FieldPlan, ends_m: Floats) -> Floats:
+    """Where each lane's rows begin or end on average, those that have plants, shape (lanes,)."""
+    counted = np.where(plan.sown.any(axis=1, keepdims=True), plan.sown, True)
+    return np.asarray((ends_m * counted).sum(axis=1) / counted.sum(axis=1))
 
 
 def _rounded(value: "float | np.floating[Any]") -> float | None:

@@ -100,7 +100,7 @@ def _lines(plan: FieldPlan) -> tuple[list[np.ndarray], list[np.ndarray]]:
         first, last = float(plan.s_first_m[lane].min()), float(plan.s_last_m[lane].max())
         s = np.arange(first, last, MAP_STEP_M)
         lanes.append(plan.centreline.position(s, plan.rows.lane_n(lane, s)))
-        for row in range(plan.rows_per_lane):
+        for row in np.flatnonzero(plan.sown[lane]).tolist():
             s = np.arange(float(plan.s_first_m[lane, row]), float(plan.s_last_m[lane, row]), MAP_STEP_M)
             rows.append(plan.centreline.position(s, plan.rows.row_n(lane, row, s)))
     return lanes, rows

@@ -59,8 +59,17 @@ class Run:
     realtime: bool = False
 
 
-def simulate(run: Run, observers: Sequence[Observer] = ()) -> tuple[RunDirectory, Summary]:
-    """Drive the mission to its end; returns the run directory and the figures.
+@dataclass(frozen=True, slots=True)
+class Simulated:
+    """A run that has ended: its directory, its figures, and the true path beside its field."""
+
+    directory: RunDirectory
+    summary: Summary
+    driven: PathObserver
+
+
+def simulate(run: Run, observers: Sequence[Observer] = ()) -> Simulated:
+    """Drive the mission to its end.
 
     Raises FieldnavError for settings that do not fit, an unwritable folder, or a mission that does not end.
     """
@@ -101,7 +110,7 @@ def simulate(run: Run, observers: Sequence[Observer] = ()) -> tuple[RunDirectory
             summary = figures.summary(wall_s, headland(world, path), judge(world, path, run.lanes))
             write_summary(directory.summary, summary)
             draw_run(directory.map, plan, path, run.field.name, summary)
-    return directory, summary
+    return Simulated(directory, summary, path)
 
 
 def _come_to_rest(wheels: ThorvaldWheels, world: World) -> None:

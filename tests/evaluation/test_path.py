@@ -9,7 +9,7 @@ import pytest
 from drivers.can_log import open_virtual_pair
 from drivers.simulated_modules import SimulatedModules
 from drivers.thorvald import ThorvaldWheels
-from fieldnav.evaluation.path import PathObserver, paths_kept
+from fieldnav.evaluation.path import PathObserver
 from fieldnav.messages import Side, Wheel, WheelSetpoint
 from fieldnav.mission.gate import Passed
 from fieldnav.mission.loop import TICK_S
@@ -61,12 +61,3 @@ def test_the_rate_at_which_the_wheels_turn_adds_up_to_how_far_they_turned(turned
     assert rates.sum() * TICK_S == pytest.approx(pi / 2, abs=0.05)
     assert len(rates) == len(turned.path.yaw_rate_rps) == len(turned.path.states)
     assert np.abs(turned.path.yaw_rate_rps).max() < 1e-3
-
-
-def test_a_path_is_kept_for_who_asked_before_it_began(turned: PathObserver) -> None:
-    with paths_kept() as kept:
-        inside = PathObserver(turned.world)
-    outside = PathObserver(turned.world)
-
-    assert kept == [inside]
-    assert outside not in kept

@@ -53,7 +53,8 @@ def drive(parent: Path, tilt_error_deg: float) -> tuple[RunDirectory, Summary, l
             seen.append(tick)
 
     run = Run(field, load_crop(field.crop), quick_robot(), 1, Side.RIGHT, parent)
-    return (*simulate(run, [Watcher()]), seen)
+    done = simulate(run, [Watcher()])
+    return done.directory, done.summary, seen
 
 
 def knocks(directory: RunDirectory) -> list[Line]:
