@@ -7,7 +7,7 @@ from typing import Annotated
 from pydantic import Field
 
 from fieldnav.messages import Steering
-from fieldnav.settings.lane_change import Recognition, RowEnd, Seconds, Switching
+from fieldnav.settings.lane_change import Recognition, RowEnd, Switching
 from fieldnav.settings.model import FileName, Settings
 
 Fraction = Annotated[float, Field(ge=0, le=1)]
@@ -31,6 +31,9 @@ class Rows(Settings):
 
     per_lane: int = Field(ge=1, le=8)
     spacing_m: float = Field(ge=0.1, le=1.5)
+    lane_pitch_m: float | None = Field(
+        default=None, ge=0.5, le=5, description="from lane to lane as drilled; null: learnt from the switches"
+    )
 
 
 class Plants(Settings):
@@ -70,7 +73,6 @@ class Tracking(Settings):
     """Paper III-A.3: the parallelogram on each row."""
 
     narrowest: Fraction = Field(default=0.05, description="parallelogram width over image width (paper: 5 %)")
-    hold_s: Seconds = Field(default=4.0, description="how long a row that is not seen keeps its last line")
     fewest_centres: int = Field(default=2, ge=2, le=50)
 
 

@@ -83,7 +83,7 @@ def tracked(image: Anything, drawn: SimpleNamespace) -> TrackedRows:
     """The lane straight under the robot, tracked into the picture."""
     camera = camera_for(image, drawn.camera)
     rows = tuple(camera.row_in_image(place, 0.0) for place in comb_m(drawn.beet))
-    before = TrackedRows(rows, (0.0,) * len(rows), (0,) * len(rows), 0.0)
+    before = TrackedRows(rows, 0.0)
     centres = find_plants(image, drawn.beet.vegetation, camera)
     return track(before, centres, 0.1, drawn.beet, camera)
 
