@@ -14,6 +14,8 @@ from states.guide import Look
 
 AGREEING_FRAMES = 2
 """Of the trailing camera, which finds the rows by itself when the exit begins."""
+LOOKED_AWAY_S = 1.0
+"""Half a metre at working speed: a camera not looked at for longer finds its rows afresh."""
 
 
 class PaperGuide:
@@ -30,7 +32,7 @@ class PaperGuide:
 
     def look(self, frame: Frame, centres: Centres, pose: Pose) -> Look:
         crop, camera = self._task.crop, self._task.cameras[frame.camera]
-        known = self._rows.get(frame.camera)
+        known = self._known(frame)
         if known is not None:
             rows = self._rows[frame.camera] = track(known, centres, frame.stamp_s, crop, camera)
             return Look(rows.rows, rows.rows_seen)
@@ -40,13 +42,24 @@ class PaperGuide:
             return Look(lane.rows, lane.rows_seen)
         return Look((), 0)
 
+    def _known(self, frame: Frame) -> TrackedRows | None:
+        """The rows of the frame's camera, unless the robot has driven on since that was last looked at."""
+        known = self._rows.get(frame.camera)
+        if known is not None and frame.stamp_s - known.stamp_s > LOOKED_AWAY_S:
+            del self._rows[frame.camera]
+            self._agreement = Agreement(AGREEING_FRAMES)
+            return None
+        return known
+
     def rows(self, camera: CameraName, pose: Pose) -> tuple[RowLine, ...]:
         known = self._rows.get(camera)
         return known.rows if known else ()
 
     def motion(self, pose: Pose, speed_mps: float, camera: CameraName) -> Motion:
         rows, sign = self.rows(camera, pose), self._direction.sign
-        self.feature = feature(rows, self._task.cameras[camera]) if rows else None
+        # A line that is not seen stays in the image however the robot turns: steering by it never ends.
+        shown = any(row.confidence > 0 for row in rows)
+        self.feature = feature(rows, self._task.cameras[camera]) if shown else None
         if self.feature is None:
             return Motion(Twist(vx_mps=sign * speed_mps))
         leads, servoing = camera is self._direction.leading, self._task.crop.servoing
