@@ -52,26 +52,25 @@ class Coasting:
             Evidence("coasted", coasted_m, crop.row_end.longest_gap_m, "m"),
             *guide.evidence(seen.pose),
         )
-        event, reason = self._event(found, frame, seen, agreed)
-        if event is None and end.probability >= LANE_ENDED:
+        event, reason = self._found(found, look, frame, seen) if agreed else (None, "")
+        if self._seen_again >= AGREEING_FRAMES:
+            event, reason = Event.ROWS_FOUND, ""
+        elif event is None and end.probability >= LANE_ENDED:
             event = Event.LANE_ENDED
-        if event is None:
+        elif event is None:
             reason = guide.lost(seen.pose) or self._too_long(coasted_m)
             event = Event.FAIL if reason else None
-        return Step(event=event, evidence=evidence, sight=self._sight(frame, found, look), reason=reason)
+        sight = Sight(frame, look.rows, found.centres)
+        return Step(event=event, evidence=evidence, sight=sight, reason=reason)
 
-    def _event(self, found: View, frame: Frame, seen: Observation, agreed: bool) -> tuple[Event | None, str]:
-        if self._seen_again >= AGREEING_FRAMES:
+    def _found(self, found: View, look: Look, frame: Frame, seen: Observation) -> tuple[Event, str]:
+        """The lane found afresh; where the guide's rows have plants too, what it has learnt is kept."""
+        if not found.lane or 2 * look.rows_seen >= self._task.crop.rows.per_lane:
             return Event.ROWS_FOUND, ""
-        if agreed and found.lane:
-            self._lane.guide.begin(found.lane, frame, seen.exposed_at(frame))
-            return Event.ROWS_FOUND, "the lane was found afresh"
-        return None, ""
+        self._lane.guide.begin(found.lane, frame, seen.exposed_at(frame))
+        return Event.ROWS_FOUND, "the lane was found afresh"
 
     def _too_long(self, coasted_m: float) -> str:
         if coasted_m > self._task.crop.row_end.longest_gap_m:
             return "rows lost for longer than the profile's longest gap"
         return ""
-
-    def _sight(self, frame: Frame, found: View, look: Look) -> Sight:
-        return Sight(frame, look.rows, found.centres)
