@@ -7,16 +7,19 @@ from states.acquiring import Acquiring
 from states.behaviour import Behaviour, Task
 from states.coasting import Coasting
 from states.crossing import CrossingRows
+from states.entering import Entering
 from states.exiting import Exiting
 from states.machine import Change
 from states.memory import LaneMemory
 from states.names import Event, Follow, Path, Phase, Sidestep, direction_of
 from states.orienting import Orienting
+from states.returning import Returning
 from states.sampling import Sampling
 from states.settling import Settling
 from states.standing import Checking, Standing
 from states.table import CHECKING
 from states.tracking import Tracking
+from states.verifying import Verifying
 
 _IN_LANE: dict[Path, Callable[[Task, Direction, LaneMemory], Behaviour]] = {
     (Phase.FOLLOW, Follow.ACQUIRING): Acquiring,
@@ -27,6 +30,9 @@ _IN_LANE: dict[Path, Callable[[Task, Direction, LaneMemory], Behaviour]] = {
     (Phase.SIDESTEP, Sidestep.SAMPLING): Sampling,
     (Phase.SIDESTEP, Sidestep.CROSSING): CrossingRows,
     (Phase.SIDESTEP, Sidestep.SETTLING): Settling,
+    (Phase.SIDESTEP, Sidestep.VERIFYING): Verifying,
+    (Phase.SIDESTEP, Sidestep.RETURNING): Returning,
+    (Phase.SIDESTEP, Sidestep.ENTERING): Entering,
 }
 
 

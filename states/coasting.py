@@ -3,6 +3,8 @@
 from dataclasses import replace
 
 from fieldnav.messages import CameraName, Direction, Evidence, Frame, Twist
+from fieldnav.perception.canopy import canopy_plane
+from fieldnav.perception.follow import comb_of
 from fieldnav.perception.perceive import View, find
 from states.agreement import Agreement
 from states.behaviour import Observation, Sight, Step, Task
@@ -12,6 +14,8 @@ from states.memory import LaneMemory
 from states.names import Event
 
 AGREEING_FRAMES = 3
+ELSEWHERE = 0.25
+"""Of the row spacing, at the middle of the view: further from its path the lane found afresh gainsays it."""
 
 
 class Coasting:
@@ -42,7 +46,8 @@ class Coasting:
         found = find(frame.image, crop, self._task.cameras[frame.camera])
         look = guide.look(frame, found.centres, seen.exposed_at(frame))
         end = watch_end(self._lane, frame, found.centres, look.rows, seen, self._direction, self._task)
-        self._seen_again = self._seen_again + 1 if 2 * look.rows_seen >= crop.rows.per_lane else 0
+        again = 2 * look.rows_seen >= crop.rows.per_lane and not self._elsewhere(found, frame, look)
+        self._seen_again = self._seen_again + 1 if again else 0
         agreed = self._agreement.add(found.lane)
         coasted_m = driven_m(seen, self._direction) - (self._entered_m or 0.0)
         evidence = (
@@ -69,6 +74,14 @@ class Coasting:
             return Event.ROWS_FOUND, ""
         self._lane.guide.begin(found.lane, frame, seen.exposed_at(frame))
         return Event.ROWS_FOUND, "the lane was found afresh"
+
+    def _elsewhere(self, found: View, frame: Frame, look: Look) -> bool:
+        """Whether the rows just found run beside the path, on which weeds may stand for crop."""
+        if found.lane is None:
+            return False
+        crop, plane = self._task.crop, canopy_plane(self._task.cameras[frame.camera], self._task.crop)
+        path, seen = (comb_of(rows, crop, plane) for rows in (look.rows, found.lane.rows))
+        return abs(seen.offset_m - path.offset_m) > ELSEWHERE * crop.rows.spacing_m
 
     def _too_long(self, coasted_m: float) -> str:
         if coasted_m > self._task.crop.row_end.longest_gap_m:

@@ -1,8 +1,10 @@
 """Exit: drive out of the lane guided by the trailing camera (paper phase 2)."""
 
 from fieldnav.estimation.lane_end import LaneEndView
-from fieldnav.messages import CameraName, Centres, Direction, Evidence, Frame, Motion, Twist
+from fieldnav.messages import CameraName, Direction, Evidence, Frame, Motion, Twist
+from fieldnav.perception.perceive import find
 from fieldnav.perception.plants import find_plants
+from states.agreement import Agreement
 from states.behaviour import Observation, Sight, Step, Task
 from states.guides import steering_of
 from states.lane_watch import SURE, driven_m, end_evidence, watch_end
@@ -15,6 +17,8 @@ AGAIN = 0.5
 """Probability of an end below which it was a gap."""
 BEYOND_M = 1.0
 """Past the place to stop, a robot that is still not sure of the end goes no further than this."""
+AGREEING_FRAMES = 3
+"""Frames that must show the same lane afresh before the end is judged along its rows."""
 
 
 class Exiting:
@@ -24,6 +28,7 @@ class Exiting:
         self.cameras: tuple[CameraName, ...] = (direction.leading, direction.trailing)
         self._task, self._direction, self._lane = task, direction, lane
         self._end: LaneEndView = lane.end.judge()
+        self._agreement = Agreement(AGREEING_FRAMES)
         self._step = Step()
 
     def step(self, seen: Observation) -> Step:
@@ -37,19 +42,29 @@ class Exiting:
         return self._step
 
     def _ahead(self, frame: Frame, seen: Observation) -> Step:
-        """What the leading camera says: nothing more, or crop again."""
-        centres, rows = self._plants(frame), self._lane.guide.rows(frame.camera, seen.exposed_at(frame))
+        """What the leading camera says: nothing more, or crop again, be it beside where the rows should run.
+
+        Over a gap the lane's path is drawn on from before it. Where that was little, rows come again so far
+        aside that their plants seem to stand between them: so the lane is looked for afresh, too.
+        """
+        guide, pose = self._lane.guide, seen.exposed_at(frame)
+        found = find(frame.image, self._task.crop, self._task.cameras[frame.camera])
+        afresh = found.lane if self._agreement.add(found.lane) else None
+        rows, centres = afresh.rows if afresh else guide.rows(frame.camera, pose), found.centres
         self._end = watch_end(self._lane, frame, centres, rows, seen, self._direction, self._task)
         if self._end.probability >= AGAIN:
             return self._step.continued()
-        evidence = end_evidence(self._end, AGAIN)
+        if afresh:
+            guide.begin(afresh, frame, pose)
+        evidence = (*end_evidence(self._end, AGAIN), *self._agreement.evidence())
         reason = "crop comes again: it was a gap"
         return Step(
             event=Event.ROWS_SEEN_AGAIN, evidence=evidence, sight=Sight(frame, rows, centres), reason=reason
         )
 
     def _behind(self, frame: Frame, seen: Observation) -> Step:
-        centres, guide = self._plants(frame), self._lane.guide
+        guide, camera = self._lane.guide, self._task.cameras[frame.camera]
+        centres = find_plants(frame.image, self._task.crop.vegetation, camera)
         look = guide.look(frame, centres, seen.exposed_at(frame))
         self._lane.trailing = look if look.rows else self._lane.trailing
         self._end = watch_end(self._lane, frame, centres, look.rows, seen, self._direction, self._task)
@@ -73,9 +88,6 @@ class Exiting:
             reason = "no crop either way, and yet the lane should not end here"
             return Step(event=Event.FAIL, evidence=evidence, sight=sight, reason=reason)
         return Step(evidence=evidence, sight=sight)
-
-    def _plants(self, frame: Frame) -> Centres:
-        return find_plants(frame.image, self._task.crop.vegetation, self._task.cameras[frame.camera])
 
     def _left_m(self, seen: Observation) -> float:
         """Way to where the trailing camera stands as far past the last crop as the profile says."""

@@ -4,8 +4,9 @@ from collections import Counter
 from dataclasses import dataclass, field
 
 from fieldnav.estimation.lane_end import LaneEnd
-from fieldnav.perception.passing_rows import Crossing
+from fieldnav.odometry import Pose
 from fieldnav.perception.recognition import Descriptors
+from fieldnav.perception.sidestep.passing_rows import Crossing
 from states.guide import Guide, Look
 
 OFTEN = 0.1
@@ -14,20 +15,31 @@ OFTEN = 0.1
 
 @dataclass(slots=True)
 class SwitchMemory:
-    """One sidestep: the outermost row's features and the rows as they pass."""
+    """One sidestep: the rows as they pass, the features of the outermost known one, how often it was tried.
+
+    started_m, started_forward_m: what the wheels had travelled sideways and ahead when it began; exposed:
+    where the last frame was taken in which the rows were followed; looks: how often the next lane was looked
+    for; refused: why it was not taken; rows_counted: its rows as seen so far; pitch_m: distance from the old
+    lane to it.
+    """
 
     started_m: float
+    started_forward_m: float = 0.0
     reference: Descriptors | None = None
     crossing: Crossing | None = None
-    seen_s: float | None = None
-    """Stamp of the last frame in which the rows were followed."""
+    exposed: Pose | None = None
+    looks: int = 1
+    refused: str = ""
+    rows_counted: int = 0
+    pitch_m: float | None = None
 
 
 @dataclass(slots=True)
 class LaneMemory:
     """One lane: what guides along it, where it ends, and how many rows were seen how often.
 
-    expected_m: the length of the lanes before, None on the first.
+    expected_m: the length of the lanes before, None on the first; pitches_m: distances from lane to lane, as
+    the switches before have found them.
     """
 
     number: int
@@ -36,6 +48,7 @@ class LaneMemory:
     trailing: Look | None = None
     counts: Counter[int] = field(default_factory=Counter)
     switch: SwitchMemory | None = None
+    pitches_m: tuple[float, ...] = ()
     _guide: Guide | None = None
     _end: LaneEnd | None = None
 
@@ -56,12 +69,14 @@ class LaneMemory:
     def after(self) -> "LaneMemory":
         """The memory of the lane that follows."""
         length_m = self._end.length_m() if self._end else self.expected_m
-        return LaneMemory(self.number + 1, length_m)
+        pitch_m = self.switch.pitch_m if self.switch else None
+        pitches_m = self.pitches_m if pitch_m is None else (*self.pitches_m, pitch_m)
+        return LaneMemory(self.number + 1, length_m, pitches_m=pitches_m)
 
     @property
     def rows_passed(self) -> int:
         """New rows counted in this lane's switch so far."""
-        return self.switch.crossing.passed if self.switch and self.switch.crossing else 0
+        return self.switch.rows_counted if self.switch else 0
 
     @property
     def rows(self) -> int:

@@ -37,6 +37,9 @@ class Sidestep(Enum):
     SAMPLING = "Sampling"
     CROSSING = "Crossing"
     SETTLING = "Settling"
+    VERIFYING = "Verifying"
+    RETURNING = "Returning"
+    ENTERING = "Entering"
 
 
 class Fault(Enum):
@@ -63,6 +66,11 @@ class Event(Enum):
     WHEELS_TURNED = "wheels turned"
     ROW_SAMPLED = "row sampled"
     ROWS_CROSSED = "rows crossed"
+    LANE_REACHED = "lane reached"
+    LANE_OFF_CENTRE = "lane off centre"
+    LANE_REFUSED = "lane refused"
+    OLD_LANE_SEEN = "old lane seen"
+    LANE_VERIFIED = "lane verified"
     LANE_CENTRED = "lane centred"
     PAUSE = "pause"
     RESUME = "resume"

@@ -34,6 +34,6 @@ class Orienting:
         motion = sideways(self._task, self._task.crop.speeds.sidestep_mps, hold=True)
         # The word on alignment belongs to the motion commanded before, so the first tick says nothing.
         if seen.wheels_aligned and self._turning_ticks > SETTLED_TICKS:
-            self._lane.switch = SwitchMemory(started_m=seen.sideways_m)
+            self._lane.switch = SwitchMemory(seen.sideways_m, seen.forward_m)
             return Step(motion, Event.WHEELS_TURNED, evidence)
         return Step(motion, None, evidence)

@@ -29,7 +29,8 @@ def _lane_leaves(direction: Direction) -> tuple[Path, ...]:
 
 
 def _lane_transitions(direction: Direction) -> tuple[Transition, ...]:
-    acquiring, tracking, coasting, leaving, orienting, sampling, crossing, settling = _lane_leaves(direction)
+    acquiring, tracking, coasting, leaving, *sidestep = _lane_leaves(direction)
+    orienting, sampling, crossing, settling, verifying, returning, entering = sidestep
     next_lane = (direction.opposite, Phase.FOLLOW, Follow.ACQUIRING)
     return (
         Transition(acquiring, Event.ROWS_FOUND, tracking),
@@ -43,7 +44,13 @@ def _lane_transitions(direction: Direction) -> tuple[Transition, ...]:
         Transition(orienting, Event.WHEELS_TURNED, sampling),
         Transition(sampling, Event.ROW_SAMPLED, crossing),
         Transition(crossing, Event.ROWS_CROSSED, settling),
-        Transition(settling, Event.LANE_CENTRED, next_lane),
+        Transition(settling, Event.LANE_REACHED, verifying),
+        Transition(settling, Event.LANE_REFUSED, returning),
+        Transition(verifying, Event.LANE_OFF_CENTRE, settling),
+        Transition(verifying, Event.LANE_REFUSED, returning),
+        Transition(verifying, Event.LANE_VERIFIED, entering),
+        Transition(returning, Event.OLD_LANE_SEEN, crossing),
+        Transition(entering, Event.LANE_CENTRED, next_lane),
         Transition((direction,), Event.PAUSE, PAUSED),
         Transition((direction,), Event.FAIL, RECOVERABLE),
         Transition((direction,), Event.LATCH, LATCHED),

@@ -1,12 +1,8 @@
 """What a crop profile says of lanes: when one ends, how the next one is told, and how it is entered."""
 
-from typing import Annotated
-
 from pydantic import Field
 
 from fieldnav.settings.model import Settings
-
-Seconds = Annotated[float, Field(gt=0, le=60)]
 
 
 class RowEnd(Settings):
@@ -42,7 +38,7 @@ class Recognition(Settings):
 
 
 class Switching(Settings):
-    """The sidestep to the next lane: how far it may go and how well it must end."""
+    """The sidestep to the next lane: how far it may go, how well it must end, how often it is tried."""
 
     headland_m: float = Field(
         default=0.35, ge=0.1, le=2, description="from the last crop to the trailing camera at the sidestep"
@@ -52,3 +48,15 @@ class Switching(Settings):
         default=0.02, gt=0, le=0.2, description="the new lane counts as centred within this"
     )
     aligned_deg: float = Field(default=1.5, gt=0, le=10, description="and as aligned within this")
+    attempts: int = Field(
+        default=2, ge=1, le=5, description="so often the next lane is looked for before the robot stops"
+    )
+    crop_clearance_m: float = Field(
+        default=0.2,
+        ge=0.0,
+        le=1,
+        description="moving sideways, crop is kept so far beyond the trailing camera; wheels run behind it",
+    )
+    longest_retreat_m: float = Field(
+        default=0.6, ge=0, le=2, description="and so far the robot moves away from it at most"
+    )

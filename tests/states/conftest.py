@@ -1,7 +1,7 @@
 """A drawn field and what a behaviour is told of it, without a robot, a clock or a bus."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from math import radians, tan
 from types import SimpleNamespace
 
@@ -9,12 +9,13 @@ import cv2
 import numpy as np
 import pytest
 
-from fieldnav.messages import CameraName, Frame, Image, Side
+from fieldnav.messages import CameraName, Direction, Frame, Image, Side
+from fieldnav.odometry import Pose
 from fieldnav.perception.canopy import canopy_plane
 from fieldnav.pinhole import Pinhole
 from fieldnav.settings.crop import CropProfile
 from fieldnav.settings.loading import load_crop
-from states.behaviour import Observation, Task
+from states.behaviour import Behaviour, Observation, Step, Task
 
 SOIL_BGR, LEAF_BGR = (72, 96, 122), (50, 150, 70)
 LEAF = 0.4
@@ -54,6 +55,7 @@ class Situation:
     aligned: bool = True
     ready: bool = True
     sequence: int = 0
+    pose: Pose = field(default_factory=Pose)
 
     def seen(self, images: Mapping[CameraName, Image] | None = None, dt_s: float = TICK_S) -> Observation:
         self.now_s += dt_s
@@ -69,7 +71,73 @@ class Situation:
             stopped=self.stopped,
             wheels_aligned=self.aligned,
             wheels_ready=self.ready,
+            pose=self.pose,
+            exposed=dict.fromkeys(CameraName, self.pose),
         )
+
+
+PITCH_M = 1.5
+ROWS_FROM_M, ROWS_TO_M = 1.1, 2.4
+"""Where the rows begin and end behind the robot, from its centre."""
+
+
+def lanes(
+    task: Task,
+    direction: Direction,
+    numbers: tuple[int, ...] = (0, 1, 2),
+    without: tuple[tuple[int, int], ...] = (),
+    nearer_m: float = 0.0,
+) -> np.ndarray:
+    """Where the plants of whole lanes stand on the ground, shape (n, 2); lane 0 is that of the robot.
+
+    without: (lane, row from the inside) not sown; nearer_m: by how much lane 1 reaches nearer to the robot.
+    """
+    crop, behind = task.crop, -direction.sign
+    plants = []
+    for lane in numbers:
+        for row in range(crop.rows.per_lane):
+            if (lane, row) in without:
+                continue
+            place = lane * PITCH_M + (row - (crop.rows.per_lane - 1) / 2) * crop.rows.spacing_m
+            first_m = ROWS_FROM_M - (nearer_m if lane == 1 else 0.0)
+            x = np.arange(first_m, ROWS_TO_M, crop.plants.spacing_m)
+            plants.append(np.stack([behind * x, np.full(len(x), task.side.sign * place)], axis=-1))
+    return np.concatenate(plants)
+
+
+@dataclass
+class Stepping:
+    """A robot at the end of a lane that obeys behaviours and sees the plants behind it."""
+
+    task: Task
+    direction: Direction
+    plants_m: np.ndarray
+    situation: Situation = field(default_factory=Situation)
+
+    @property
+    def way_m(self) -> float:
+        """How far it has come to the next lane's side."""
+        return self.task.side.sign * self.situation.pose.y_m
+
+    def look(self, plants_m: np.ndarray | None = None) -> Image:
+        """What the trailing camera shows here."""
+        pose = self.situation.pose
+        c, s = np.cos(pose.heading_rad), np.sin(pose.heading_rad)
+        away = (self.plants_m if plants_m is None else plants_m) - [pose.x_m, pose.y_m]
+        return picture(self.task.crop, -self.direction.sign * away @ np.array([[c, -s], [s, c]]))
+
+    def obey(self, behaviour: Behaviour, frames: int, plants_m: np.ndarray | None = None) -> Step:
+        """Let the behaviour lead until it has an event or so many frames are over; returns its last step."""
+        for _ in range(frames):
+            step = behaviour.step(self.situation.seen({self.direction.trailing: self.look(plants_m)}))
+            if step.event:
+                break
+            twist = step.motion.twist
+            here = self.situation
+            here.pose = here.pose if step.motion.hold else here.pose.moved(twist, TICK_S)
+            here.forward_m, here.sideways_m = here.pose.x_m, here.pose.y_m
+            here.stopped = step.motion.hold or not (twist.vx_mps or twist.vy_mps)
+        return step
 
 
 @pytest.fixture(scope="session")
@@ -78,5 +146,13 @@ def drawn() -> SimpleNamespace:
     crop = load_crop("sugar-beet")
     task = Task(crop, dict.fromkeys(CameraName, CAMERA), Side.RIGHT, lanes=2)
     return SimpleNamespace(
-        crop=crop, task=task, camera=CAMERA, rows=rows, picture=picture, situation=Situation
+        crop=crop,
+        task=task,
+        camera=CAMERA,
+        rows=rows,
+        picture=picture,
+        situation=Situation,
+        lanes=lanes,
+        stepping=Stepping,
+        pitch_m=PITCH_M,
     )

@@ -6,22 +6,18 @@ import numpy as np
 import pytest
 
 from fieldnav.estimation.lane_end import LaneEnd
-from fieldnav.messages import CameraName, Direction, Frame, Side, Steering
+from fieldnav.messages import CameraName, Direction, Frame, Side
 from fieldnav.odometry import Pose
-from fieldnav.perception.passing_rows import begin
 from fieldnav.perception.perceive import find
 from states.acquiring import CREEP_LIMIT_M, STANDING_LOOK_S, Acquiring
 from states.behaviour import Step, Task
 from states.behaviours import Behaviours
-from states.crossing import CrossingRows
 from states.guide import Look
 from states.guides import guide_for
 from states.machine import Change
 from states.memory import LaneMemory, SwitchMemory
 from states.names import Event, Follow, Phase, Sidestep, text
-from states.orienting import LONGEST_S, Orienting
 from states.sampling import Sampling
-from states.settling import Settling
 from states.standing import CHECK_S, Checking
 from states.table import LANE_LEAVES
 from states.tracking import Tracking
@@ -97,35 +93,6 @@ def test_acquiring_without_rows_stands_then_creeps_boundedly_then_says_why_it_st
     assert judged(step, "crept") > CREEP_LIMIT_M
 
 
-def test_orienting_waits_for_standstill_and_then_for_the_wheels(drawn: SimpleNamespace) -> None:
-    memory, situation = LaneMemory(number=1), drawn.situation()
-    situation.stopped, situation.aligned, situation.sideways_m = False, True, 0.4
-    orienting = Orienting(drawn.task, Direction.FORWARD, memory)
-
-    rolling = [orienting.step(situation.seen()) for _ in range(20)]
-    assert all(step.event is None and step.motion.steering is Steering.DIFFERENTIAL for step in rolling)
-    situation.stopped, situation.aligned = True, False
-    turning = [orienting.step(situation.seen()) for _ in range(20)]
-    assert all(step.event is None and step.motion.hold for step in turning)
-    assert turning[-1].motion.steering is Steering.OMNIDIRECTIONAL
-    situation.aligned = True
-    step = orienting.step(situation.seen())
-
-    assert step.event is Event.WHEELS_TURNED and step.motion.hold
-    assert memory.switch and memory.switch.started_m == 0.4
-
-
-def test_wheels_that_do_not_turn_are_a_fault_with_a_reason(drawn: SimpleNamespace) -> None:
-    situation = drawn.situation()
-    situation.aligned = False
-    orienting = Orienting(drawn.task, Direction.FORWARD, LaneMemory(number=1))
-
-    orienting.step(situation.seen())
-    step = orienting.step(situation.seen(dt_s=LONGEST_S + 0.1))
-
-    assert step.event is Event.FAIL and step.reason == "the wheels do not turn across"
-
-
 @DIRECTIONS
 @pytest.mark.parametrize("side", Side, ids=lambda side: side.value)
 def test_sampling_stands_and_describes_the_row_nearest_the_next_lane(
@@ -142,51 +109,9 @@ def test_sampling_stands_and_describes_the_row_nearest_the_next_lane(
     assert all(each.motion.hold for each in steps)
     assert step.event is Event.ROW_SAMPLED
     assert memory.switch and memory.switch.crossing and memory.switch.reference is not None
-    outermost = memory.switch.crossing.outermost
-    assert outermost.number == 0
+    rows = memory.switch.crossing
+    outermost = rows.rows[rows.outermost_old]
     assert outermost.across_m == pytest.approx(drawn.crop.rows.spacing_m, abs=0.05), "towards the next lane"
-
-
-@pytest.mark.parametrize("behaviour", [CrossingRows, Settling])
-@DIRECTIONS
-def test_a_sidestep_past_its_bound_stops_and_says_so(
-    behaviour: type[CrossingRows] | type[Settling], direction: Direction, drawn: SimpleNamespace
-) -> None:
-    memory, situation = lane(drawn), drawn.situation()
-    moving = behaviour(drawn.task, direction, memory)
-    limit_m = drawn.crop.switching.longest_sidestep_m
-
-    situation.sideways_m = -(limit_m - 0.01)
-    assert moving.step(situation.seen()).event is None
-    situation.sideways_m = -(limit_m + 0.01)
-    step = moving.step(situation.seen())
-
-    assert step.event is Event.FAIL and "lane" in step.reason
-    assert step.motion.twist.vy_mps == 0.0
-    assert judged(step, "moved sideways") == pytest.approx(limit_m + 0.01)
-
-
-@DIRECTIONS
-@pytest.mark.parametrize("side", Side, ids=lambda side: side.value)
-def test_crossing_moves_to_the_side_of_the_next_lane(
-    direction: Direction, side: Side, drawn: SimpleNamespace
-) -> None:
-    task = Task(drawn.crop, drawn.task.cameras, side, 2)
-    memory, situation = lane(drawn), drawn.situation()
-    assert memory.switch and memory.trailing
-    memory.switch.crossing = begin(
-        memory.trailing.rows, task.outward(direction.trailing), drawn.crop, drawn.camera
-    )
-    crossing = CrossingRows(task, direction, memory)
-
-    step = crossing.step(
-        situation.seen({direction.trailing: drawn.picture(drawn.crop, drawn.rows(drawn.crop))})
-    )
-
-    twist = step.motion.twist
-    assert (twist.vx_mps, twist.vy_mps) == (0.0, side.sign * drawn.crop.speeds.sidestep_mps)
-    assert step.motion.steering is Steering.OMNIDIRECTIONAL and not step.motion.hold
-    assert judged(step, "new rows passed") == 0
 
 
 def test_checking_is_ready_when_both_cameras_and_the_modules_are(drawn: SimpleNamespace) -> None:
@@ -227,10 +152,10 @@ def test_a_new_lane_begins_with_a_fresh_memory(drawn: SimpleNamespace) -> None:
     behaviours.lane = lane(drawn)
     behaviours.lane.counts[3] += 5
     behaviours.lane.under_way = True
-    settling = (Direction.FORWARD, Phase.SIDESTEP, Sidestep.SETTLING)
+    entering = (Direction.FORWARD, Phase.SIDESTEP, Sidestep.ENTERING)
     acquiring = (Direction.BACKWARD, Phase.FOLLOW, Follow.ACQUIRING)
 
-    behaviours.enter(Change(settling, Event.LANE_CENTRED, acquiring))
+    behaviours.enter(Change(entering, Event.LANE_CENTRED, acquiring))
 
     assert behaviours.lane.number == 2 and not behaviours.lane.under_way and not behaviours.lane.counts
     assert isinstance(behaviours.current, Acquiring)

@@ -26,6 +26,8 @@ TO_NEXT_LANE = (
     Event.WHEELS_TURNED,
     Event.ROW_SAMPLED,
     Event.ROWS_CROSSED,
+    Event.LANE_REACHED,
+    Event.LANE_VERIFIED,
     Event.LANE_CENTRED,
 )
 STARTED = (Event.START, Event.READY)

@@ -1,0 +1,61 @@
+"""Whether a fresh look at the new lane shows what passed: its rows, their spacing and place, none beside."""
+
+from dataclasses import dataclass
+from math import isnan, nan
+
+from fieldnav.messages import Evidence, Image
+from fieldnav.perception.canopy import canopy_plane
+from fieldnav.perception.lane import LaneFit
+from fieldnav.perception.perceive import find
+from fieldnav.perception.sidestep.next_lane import NextLane, rows_beside
+from fieldnav.perception.sidestep.passing_rows import Crossing, look_at_m
+from fieldnav.perception.sidestep.row_words import LEAST_SHOWN
+from fieldnav.pinhole import Pinhole
+from fieldnav.settings.crop import CropProfile
+
+OFF_PLACE = 0.3
+"""Of the row spacing: a fresh look finds the lane this near to where the passing rows have it."""
+OFF_SPACING = 0.2
+"""Of the row spacing, as a fresh look finds it: uneven rows are within a tenth."""
+
+
+@dataclass(frozen=True, slots=True)
+class Verdict:
+    """Whether the lane is as expected, and what was seen against what was expected."""
+
+    fits: bool
+    evidence: tuple[Evidence, ...]
+
+
+def verdict(
+    image: Image, rows: Crossing, there: NextLane | None, crop: CropProfile, camera: Pinhole
+) -> Verdict:
+    """Hold a frame, looked at as if nothing were known, against the lane that the passing rows made."""
+    fit = find(image, crop, camera).lane
+    wanted = there.rows_seen if there else crop.rows.per_lane
+    off_m = _off_m(fit, rows, there, look_at_m(canopy_plane(camera, crop)))
+    spacing_m = fit.spacing_m if fit else nan
+    beside = rows_beside(rows, there, crop) if there else 0
+    shown = sum(rows.rows[row].shown > LEAST_SHOWN for row in there.rows if row >= 0) if there else 0
+    evidence = (
+        Evidence("rows that a fresh look shows", fit.rows_seen if fit else 0, wanted, "rows"),
+        Evidence("rows that show plants where they should", shown, wanted, "rows"),
+        Evidence("its lane lies off by", off_m, OFF_PLACE * crop.rows.spacing_m, "m"),
+        Evidence("its row spacing", spacing_m, crop.rows.spacing_m, "m"),
+        Evidence("rows where the wheels will go", beside, 0, "rows"),
+    )
+    even = isnan(spacing_m) or abs(spacing_m / crop.rows.spacing_m - 1) <= OFF_SPACING
+    placed = abs(off_m) <= OFF_PLACE * crop.rows.spacing_m
+    alike = fit is not None and even and placed
+    # Few plants at ragged ends may be too few for a fresh look; then those that are seen must be in place.
+    seen = (alike and fit is not None and fit.rows_seen >= wanted) or (
+        (fit is None or alike) and there is not None and shown >= wanted
+    )
+    return Verdict(seen and not beside, evidence)
+
+
+def _off_m(fit: LaneFit | None, rows: Crossing, there: NextLane | None, about_m: float) -> float:
+    """How far outward the fresh look has the lane from where the passing rows have it."""
+    if fit is None or there is None:
+        return nan
+    return rows.outward * (fit.offset_m + fit.slope * about_m) - there.middle_m
