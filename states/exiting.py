@@ -13,7 +13,7 @@ from states.names import Event
 
 SLOWEST_MPS, APPROACH_PER_S = 0.08, 1.0
 """Speed at the place to stop, and how much faster for each metre before it."""
-AGAIN = 0.5
+AGAIN = 0.3
 """Probability of an end below which it was a gap."""
 BEYOND_M = 1.0
 """Past the place to stop, a robot that is still not sure of the end goes no further than this."""

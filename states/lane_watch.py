@@ -9,7 +9,7 @@ from fieldnav.perception.row_end import crop_along_rows
 from states.behaviour import Observation, Task
 from states.memory import LaneMemory
 
-LANE_ENDED = 0.8
+LANE_ENDED = 0.5
 """Probability of an end from which on the robot leaves the lane; it may still come back."""
 SURE = 0.95
 """Probability from which on the lane is left for good."""

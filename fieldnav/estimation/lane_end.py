@@ -18,7 +18,7 @@ RARE = 0.01  # share of gaps that are longer than the profile's longest
 GAPS_PER_M = 0.04  # of all rows at once: one in 25 m
 ENDS_PER_M = 0.02  # where nothing is known of the lane's length: once in 50 m
 LENGTH_SD_M, LENGTH_SD_SHARE = 0.5, 0.02  # ends are ragged, and wheels slip
-ODD_LANES = 0.05  # share of lanes that are not as long as those before
+ODD_LANES = 0.1  # share of lanes that are not as long as those before: headlands run askew, corners are cut
 
 
 @dataclass(frozen=True, slots=True)
@@ -50,6 +50,7 @@ class LaneEnd:
         # Plants that touch are seen as one: regions are not told apart further than a canopy's width.
         self._full_per_m = crop.rows.per_lane / max(plants.spacing_m, plants.canopy_width_m)
         self._first_m: float | None = None
+        self._until_m: float | None = None
         self._seen_m = begin_m
 
     def lead(self, s_m: Floats, weight: Floats, view_m: tuple[float, float]) -> None:
@@ -64,7 +65,10 @@ class LaneEnd:
     def judge(self) -> LaneEndView:
         """What the strips say. The trailing camera has the word on what lies behind it: it saw it last."""
         led, trailed = self._last_crop_m(self._leading), self._last_crop_m(self._trailing)
-        until = max((each for each in (led, trailed) if each is not None), default=self._seen_m)
+        known = [each for each in (led, trailed) if each is not None]
+        if known:
+            self._until_m = max(known)
+        until = self._seen_m if self._until_m is None else self._until_m  # strips forget, in a long gap
         if self._first_m is None:
             self._first_m = until
         return LaneEndView(until, self._seen_m, self._probability(until))
@@ -85,12 +89,18 @@ class LaneEnd:
         return float(s[crop][-1]) if crop.any() else None
 
     def _probability(self, until_m: float) -> float:
-        """Bayes: the lane ends here, against a gap at least as long as what was seen empty."""
+        """Bayes: the lane ends here, against a gap at least as long as what was seen empty, or none at all.
+
+        What is longer than a length becomes rare with its square: fields have gaps up to some length and
+        hardly any of twice that, and a drill leaves no two plants thrice as far apart as the others.
+        """
         empty_m = max(0.0, self._seen_m - until_m)
         longest_m = max(self._crop.row_end.longest_gap_m, BIN_M)
-        gap = GAPS_PER_M * exp(log(RARE) * empty_m / longest_m)
+        gap = GAPS_PER_M * exp(log(RARE) * (empty_m / longest_m) ** 2)
+        thin_per_m = LEAST_OF_PROFILE * self._full_per_m
+        goes_on = thin_per_m * exp(-((thin_per_m * empty_m) ** 2))
         end = self._ends_per_m(until_m)
-        return end / (end + gap)
+        return end / (end + gap + goes_on)
 
     def _ends_per_m(self, until_m: float) -> float:
         if self._expected_m is None:

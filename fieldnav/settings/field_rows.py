@@ -48,6 +48,9 @@ class Rows(Settings):
     wander_length_m: float = Field(default=5.0, ge=1, le=50)
     scatter_m: float = Field(default=0.015, ge=0, le=0.1, description="rms distance of a plant from its row")
     spacing_error: float = Field(default=0.0, ge=0, le=0.3, description="uneven row distances, as a fraction")
+    pass_error_m: float = Field(
+        default=0.05, ge=0, le=0.2, description="each lane lies within plus or minus this of its place"
+    )
     ragged_m: float = Field(default=0.1, ge=0, le=0.5, description="row ends lie within plus or minus this")
 
 

@@ -53,7 +53,7 @@ class RowLines:
 
 def draw_rows(field: FieldSettings, crop: CropProfile, side_sign: int) -> RowLines:
     """Rows of every lane; the lanes follow each other to the left for side_sign 1, to the right for -1."""
-    lane_n = side_sign * field.lane_pitch_m * np.arange(field.lanes, dtype=float)
+    lane_n = side_sign * field.lane_pitch_m * np.arange(field.lanes, dtype=float) + _pass_errors(field)
     steps = round((field.length_m + 2 * MARGIN_M) / WANDER_STEP_M) + 1
     s = np.linspace(-MARGIN_M, field.length_m + MARGIN_M, steps)
     lanes, rows = field.lanes, crop.rows.per_lane
@@ -62,6 +62,12 @@ def draw_rows(field: FieldSettings, crop: CropProfile, side_sign: int) -> RowLin
     ends = np.stack([_row_ends(field, lane, rows) for lane in range(lanes)])
     row_n = lane_n[:, None, None] + offsets[:, :, None] + wander
     return RowLines(lane_n, s, row_n, ends[:, :, 0], field.length_m + ends[:, :, 1])
+
+
+def _pass_errors(field: FieldSettings) -> Floats:
+    """How far each pass of the drill lies from its place, shape (lanes,); the first is where it is."""
+    drawn = [random_stream(field.seed, Stream.PASS, lane).uniform(-1, 1) for lane in range(field.lanes)]
+    return np.array([0.0, *drawn[1:]]) * field.rows.pass_error_m
 
 
 def _row_offsets(field: FieldSettings, crop: CropProfile, lane: int) -> Floats:

@@ -33,6 +33,7 @@ class Stream(IntEnum):
     WEED_LINES = 19
     WEED_LARGE = 20
     GRASS = 21
+    PASS = 22
     SHAKING = 101
     START = 102
     WHEEL_ERRORS = 103

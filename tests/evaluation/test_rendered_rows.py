@@ -17,7 +17,7 @@ from fieldnav.settings.loading import load_crop, load_field
 from fieldnav.simulation.plan import sow
 
 STILL = CameraErrors(shake_deg=0, bounce_m=0, tilt_error_deg=0, height_error_m=0, focal_error=0)
-TIDY = Rows(wander_m=0, scatter_m=0, ragged_m=0)
+TIDY = Rows(wander_m=0, pass_error_m=0, scatter_m=0, ragged_m=0)
 TILT_RAD = radians(65)
 BEET = load_crop("sugar-beet")
 

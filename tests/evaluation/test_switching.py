@@ -33,7 +33,7 @@ PLACES = 50
 ROBOT = load_robot("bonnbot")
 BEYOND_M = 1.2
 """Of the robot's centre, past the row ends, while it steps aside."""
-EVEN = {"wander_m": 0.0, "scatter_m": 0.0, "spacing_error": 0.0, "ragged_m": 0.0}
+EVEN = {"wander_m": 0, "pass_error_m": 0, "scatter_m": 0.0, "spacing_error": 0.0, "ragged_m": 0.0}
 
 
 def plan_of(side: Side = Side.RIGHT, lanes: int = 3, wander_m: float = 0.0) -> FieldPlan:

@@ -24,7 +24,7 @@ LEAST = {
     "wheel_errors": {"speed_error": 0.02, "steering_zero_deg": 0.5, "can_delay_s": 0.005},
     "ground": {"side_slope_deg": 2.0, "slip": 0.02},
     "light": {"sunshine": 0.5},
-    "rows": {"wander_m": 0.02, "scatter_m": 0.015, "ragged_m": 0.1},
+    "rows": {"wander_m": 0.02, "pass_error_m": 0.05, "scatter_m": 0.015, "ragged_m": 0.1},
     "start": {"offset_m": 0.01, "heading_deg": 1.0},
 }
 

@@ -24,7 +24,7 @@ FAULTLESS: dict[str, Any] = {
     "lanes": 1,
     "length_m": 6,
     "start": {"offset_m": 0.0, "heading_deg": 0.0},
-    "rows": {"wander_m": 0.0},
+    "rows": {"wander_m": 0, "pass_error_m": 0},
     "ground": {"side_slope_deg": 0.0, "slip": 0.0},
     "camera_errors": {
         "shake_deg": 0.0,

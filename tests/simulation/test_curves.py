@@ -9,7 +9,7 @@ from fieldnav.settings.loading import load_crop, load_field, revised
 from fieldnav.simulation.plan import FieldPlan, sow
 
 RADIUS_M, SPACING_M, STEP_M = 12.0, 0.35, 0.05
-TIDY = {"wander_m": 0, "scatter_m": 0, "ragged_m": 0}
+TIDY = {"wander_m": 0, "pass_error_m": 0, "scatter_m": 0, "ragged_m": 0}
 
 
 @pytest.fixture(scope="module", params=Side, ids=lambda side: side.value)

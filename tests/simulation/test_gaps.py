@@ -25,7 +25,7 @@ def make_field(**changes: object) -> FieldSettings:
     return FieldSettings.model_validate(plain | changes)
 
 
-TIDY_ROWS = Rows(wander_m=0, scatter_m=0, ragged_m=0)
+TIDY_ROWS = Rows(wander_m=0, pass_error_m=0, scatter_m=0, ragged_m=0)
 NO_GAPS = {"germination": 1, "row_gaps_per_10m": 0}
 BESIDE_M = 0.25
 """The nearest of a lane's seeds is no farther from a gap's end, on either side."""

@@ -20,7 +20,7 @@ BEET = CropProfile(
     plants=Plants(spacing_m=0.2, canopy_width_m=0.2, canopy_height_m=0.12),
     tuned_for="tests",
 )
-TIDY_ROWS = Rows(wander_m=0, scatter_m=0, ragged_m=0)
+TIDY_ROWS = Rows(wander_m=0, pass_error_m=0, scatter_m=0, ragged_m=0)
 NO_GAPS = Gaps(germination=1, row_gaps_per_10m=0)
 NO_WEEDS = Weeds(per_m2=0, headland_per_m2=0)
 
@@ -47,7 +47,7 @@ def test_a_tidy_field_has_its_plants_on_a_grid():
 
 @pytest.mark.parametrize(("side", "sign"), [(Side.LEFT, 1), (Side.RIGHT, -1)])
 def test_lanes_follow_each_other_on_the_side_asked_for(side, sign):
-    plan = sow(make_field(), BEET, side)
+    plan = sow(make_field(rows=TIDY_ROWS), BEET, side)
     assert np.allclose(plan.rows.lane_n_m, [0, sign * 1.5, sign * 3.0])
 
 
@@ -77,7 +77,7 @@ def test_rows_in_a_mirrored_field_count_from_right_to_left_too():
 
 
 def test_rows_end_raggedly_but_within_the_limit_and_where_their_last_plants_stand():
-    plan = sow(make_field(rows=Rows(ragged_m=0.4, wander_m=0)), BEET, Side.RIGHT)
+    plan = sow(make_field(rows=Rows(ragged_m=0.4, wander_m=0, pass_error_m=0)), BEET, Side.RIGHT)
     assert np.abs(plan.s_first_m).max() <= 0.4
     assert np.abs(plan.s_last_m - 20).max() <= 0.4
     assert plan.s_last_m.std() > 0.1
@@ -89,7 +89,9 @@ def test_rows_end_raggedly_but_within_the_limit_and_where_their_last_plants_stan
 
 
 def test_rows_wander_as_far_as_asked_and_mostly_together():
-    field = make_field(length_m=1000, lanes=2, rows=Rows(wander_m=0.02, scatter_m=0), weeds=NO_WEEDS)
+    field = make_field(
+        length_m=1000, lanes=2, rows=Rows(wander_m=0.02, pass_error_m=0, scatter_m=0), weeds=NO_WEEDS
+    )
     plan = sow(field, BEET, Side.RIGHT)
     straight = plan.rows.row_n_m - plan.rows.row_n_m.mean(axis=2, keepdims=True)
     assert straight.std() == pytest.approx(0.02, rel=0.25)
@@ -99,7 +101,7 @@ def test_rows_wander_as_far_as_asked_and_mostly_together():
 
 def test_the_wander_of_the_rows_is_correlated_over_the_length_asked_for():
     length_m = 5.0
-    rows = Rows(wander_m=0.02, wander_length_m=length_m, scatter_m=0)
+    rows = Rows(wander_m=0.02, pass_error_m=0, wander_length_m=length_m, scatter_m=0)
     plan = sow(make_field(length_m=1000, lanes=4, rows=rows, weeds=NO_WEEDS), BEET, Side.RIGHT)
     lag = round(length_m / (plan.rows.s_m[1] - plan.rows.s_m[0]))
     away = plan.rows.row_n_m - plan.rows.row_n_m.mean(axis=2, keepdims=True)
@@ -110,7 +112,9 @@ def test_the_wander_of_the_rows_is_correlated_over_the_length_asked_for():
 
 
 def test_plants_are_scattered_about_their_row_as_far_as_asked():
-    field = make_field(length_m=200, rows=Rows(wander_m=0.02, scatter_m=0.015), weeds=NO_WEEDS)
+    field = make_field(
+        length_m=200, rows=Rows(wander_m=0.02, pass_error_m=0, scatter_m=0.015), weeds=NO_WEEDS
+    )
     plan = sow(field, BEET, Side.RIGHT)
     plants = plan.plants
     aside = [
@@ -122,7 +126,7 @@ def test_plants_are_scattered_about_their_row_as_far_as_asked():
 
 
 def test_uneven_row_distances_leave_the_lane_where_it_is():
-    field = make_field(rows=Rows(spacing_error=0.1, wander_m=0), lanes=20)
+    field = make_field(rows=Rows(spacing_error=0.1, wander_m=0, pass_error_m=0), lanes=20)
     plan = sow(field, BEET, Side.RIGHT)
     distances = np.diff(plan.rows.row_n_m[:, :, 0], axis=1)
     assert np.abs(distances - 0.35).max() <= 0.035
@@ -139,7 +143,11 @@ def test_plants_near_a_point_are_those_within_the_radius():
 
 
 def test_the_place_in_a_lane_is_told_against_the_middle_of_its_rows():
-    plan = sow(make_field(length_m=100, rows=Rows(shape=Shape.CURVED, wander_m=0.05)), BEET, Side.RIGHT)
+    plan = sow(
+        make_field(length_m=100, rows=Rows(shape=Shape.CURVED, wander_m=0.05, pass_error_m=0)),
+        BEET,
+        Side.RIGHT,
+    )
     s = np.linspace(1, 99, 60)
     middle = plan.centreline.position(s, plan.rows.lane_n(2, s))
     found_s, offset, heading = plan.in_lane(2, middle)
@@ -183,3 +191,14 @@ def test_a_crop_that_cannot_be_drawn_is_refused_and_a_variety_is_drawn_as_its_cr
     )
     with pytest.raises(SettingsError, match="tulip"):
         sow(make_field(), BEET.model_copy(update={"name": "tulip"}), Side.LEFT)
+
+
+def test_each_pass_of_the_drill_lies_a_little_off_its_place() -> None:
+    field = make_field(lanes=40, length_m=6.0)
+
+    lanes_n = sow(field, BEET, Side.LEFT).rows.lane_n_m
+
+    off = lanes_n - field.lane_pitch_m * np.arange(field.lanes)
+    most = field.rows.pass_error_m
+    assert off[0] == 0 and np.abs(off).max() <= most
+    assert off[1:].std() == pytest.approx(most / np.sqrt(3), rel=0.25)

@@ -32,7 +32,7 @@ def make_field(**changes: object) -> FieldSettings:
         "lanes": 2,
         "length_m": 8.0,
         "seed": 5,
-        "rows": Rows(wander_m=0, scatter_m=0),
+        "rows": Rows(wander_m=0, pass_error_m=0, scatter_m=0),
         "gaps": Gaps(germination=1, row_gaps_per_10m=0),
         "weeds": Weeds(per_m2=0, headland_per_m2=0),
         "wind_mps": 0,
