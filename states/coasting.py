@@ -57,10 +57,10 @@ class Coasting:
             Evidence("coasted", coasted_m, crop.row_end.longest_gap_m, "m"),
             *guide.evidence(seen.pose),
         )
-        event, reason = self._found(found, look, frame, seen) if agreed else (None, "")
+        event, reason = self._found(found, again, frame, seen) if agreed else (None, "")
         if self._seen_again >= AGREEING_FRAMES:
             event, reason = Event.ROWS_FOUND, ""
-        elif event is None and end.probability >= LANE_ENDED:
+        elif event is None and not again and end.probability >= LANE_ENDED:
             event = Event.LANE_ENDED
         elif event is None:
             reason = guide.lost(seen.pose) or self._too_long(coasted_m)
@@ -68,11 +68,12 @@ class Coasting:
         sight = Sight(frame, look.rows, found.centres)
         return Step(event=event, evidence=evidence, sight=sight, reason=reason)
 
-    def _found(self, found: View, look: Look, frame: Frame, seen: Observation) -> tuple[Event, str]:
-        """The lane found afresh; where the guide's rows have plants too, what it has learnt is kept."""
-        if not found.lane or 2 * look.rows_seen >= self._task.crop.rows.per_lane:
+    def _found(self, found: View, again: bool, frame: Frame, seen: Observation) -> tuple[Event, str]:
+        """The lane found afresh; where it is the guide's own come again, what that has learnt is kept."""
+        if not found.lane or again:
             return Event.ROWS_FOUND, ""
         self._lane.guide.begin(found.lane, frame, seen.exposed_at(frame))
+        self._lane.end.look_again()
         return Event.ROWS_FOUND, "the lane was found afresh"
 
     def _elsewhere(self, found: View, frame: Frame, look: Look) -> bool:

@@ -2,6 +2,7 @@
 
 from fieldnav.estimation.lane_end import LaneEndView
 from fieldnav.messages import CameraName, Direction, Evidence, Frame, Motion, Twist
+from fieldnav.perception.canopy import canopy_plane
 from fieldnav.perception.perceive import find
 from fieldnav.perception.plants import find_plants
 from states.agreement import Agreement
@@ -52,10 +53,12 @@ class Exiting:
         afresh = found.lane if self._agreement.add(found.lane) else None
         rows, centres = afresh.rows if afresh else guide.rows(frame.camera, pose), found.centres
         self._end = watch_end(self._lane, frame, centres, rows, seen, self._direction, self._task)
-        if self._end.probability >= AGAIN:
+        beyond = driven_m(seen, self._direction, frame) + self._nearest_seen_m(frame) > self._end.crop_until_m
+        if self._end.probability >= AGAIN and not (afresh and beyond):
             return self._step.continued()
         if afresh:
             guide.begin(afresh, frame, pose)
+            self._lane.end.look_again()
         evidence = (*end_evidence(self._end, AGAIN), *self._agreement.evidence())
         reason = "crop comes again: it was a gap"
         return Step(
@@ -74,12 +77,13 @@ class Exiting:
             Evidence("to the place to stop", left_m, 0.0, "m"),
             Evidence("length of this lane", self._lane.end.length_m(), None, "m"),
             Evidence("rows seen behind", look.rows_seen, None, "rows"),
+            Evidence("frames that show a lane ahead", self._agreement.looks, 0, "frames"),
             *guide.evidence(seen.pose),
         )
         sight = Sight(frame, look.rows, centres, guide.feature)
         if left_m > 0:
             return Step(evidence=evidence, sight=sight)
-        if self._end.probability >= SURE:
+        if self._end.probability >= SURE and not self._agreement.looks:
             last = self._lane.number >= self._task.lanes
             return Step(
                 event=Event.LAST_LANE_LEFT if last else Event.LANE_LEFT, evidence=evidence, sight=sight
@@ -88,6 +92,10 @@ class Exiting:
             reason = "no crop either way, and yet the lane should not end here"
             return Step(event=Event.FAIL, evidence=evidence, sight=sight, reason=reason)
         return Step(evidence=evidence, sight=sight)
+
+    def _nearest_seen_m(self, frame: Frame) -> float:
+        """How far ahead of the robot's centre the leading view begins: a lane in it may be the one left."""
+        return canopy_plane(self._task.cameras[frame.camera], self._task.crop).view_m[0]
 
     def _left_m(self, seen: Observation) -> float:
         """Way to where the trailing camera stands as far past the last crop as the profile says."""

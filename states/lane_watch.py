@@ -11,7 +11,7 @@ from states.memory import LaneMemory
 
 LANE_ENDED = 0.5
 """Probability of an end from which on the robot leaves the lane; it may still come back."""
-SURE = 0.95
+SURE = 0.97
 """Probability from which on the lane is left for good."""
 
 

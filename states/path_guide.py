@@ -4,22 +4,26 @@ from dataclasses import replace
 from math import degrees, pi
 
 import numpy as np
+from numpy.typing import NDArray
 
 from fieldnav.control.path_following import follow_path, in_robot_axes
 from fieldnav.estimation.lane_path import LanePath
 from fieldnav.estimation.sighting import Sighting
-from fieldnav.messages import CameraName, Centres, Direction, Evidence, Frame, Motion, RowLine
+from fieldnav.messages import CameraName, Centres, Direction, Evidence, Floats, Frame, Motion, RowLine
 from fieldnav.odometry import Pose
 from fieldnav.perception.canopy import canopy_plane
 from fieldnav.perception.follow import scatter_m, widest_m
 from fieldnav.perception.ground_plants import on_ground
 from fieldnav.perception.lane import LaneFit, comb_m
 from fieldnav.perception.tracking import Feature
+from fieldnav.settings.crop import CropProfile
 from states.behaviour import Task
 from states.guide import Look
 
 UNSURE = 2.0
 """A row's strip is wider by so many standard deviations of the lane's place."""
+LEAST_SHARE = 0.05
+"""Of being crop, of a plant that may as well be a weed."""
 
 
 class PathGuide:
@@ -45,7 +49,10 @@ class PathGuide:
         wider = UNSURE * self._known.state(self._known.pose).offset_sd_m
         reach = np.minimum(plants.half_width_m + wider, widest_m(crop))
         ahead = 1 if frame.camera is self._direction.leading else -1
-        counts = self._known.see(Sighting(ahead * plants.position_m, reach, plants.weight))
+        sighting = Sighting(ahead * plants.position_m, reach, plants.weight)
+        row, off_m, _ = self._known.rows_of(sighting)
+        sure = _crop_share(row, off_m, sighting, crop)
+        counts = self._known.see(replace(sighting, weight=sure * sighting.weight))
         seen = counts >= crop.tracking.fewest_centres
         rows = self.rows(frame.camera, pose)
         shown = seen if ahead > 0 else seen[::-1]
@@ -94,3 +101,17 @@ class PathGuide:
         return (
             pose if self._direction is Direction.FORWARD else replace(pose, heading_rad=pose.heading_rad + pi)
         )
+
+
+def _crop_share(row: NDArray[np.int64], off_m: Floats, plants: Sighting, crop: CropProfile) -> Floats:
+    """How much of each plant in a row is likely to be crop, shape (m,): weeds stand between the rows, too.
+
+    row, off_m: the row that each belongs to, -1 for none, and how far it stands from the nearest.
+    """
+    half_m = crop.rows.spacing_m / 2
+    by_chance = plants.reach_m / (half_m - plants.reach_m)
+    between = float((by_chance * plants.weight)[(row < 0) & (np.abs(off_m) <= half_m)].sum())
+    inside = float(plants.weight[row >= 0].sum())
+    share = max(LEAST_SHARE, 1 - between / inside) if inside > 0 else 1.0
+    alone = np.bincount(row[row >= 0], minlength=crop.rows.per_lane) < crop.tracking.fewest_centres
+    return np.where((row >= 0) & ~alone[row], share, LEAST_SHARE)

@@ -34,6 +34,11 @@ class CropAlong:
         self._looks[view] += 1
         self._held[view] += held[view]
 
+    def forget(self, from_m: float) -> None:
+        """Forget what was seen from an s on."""
+        beyond = slice(max(0, round(from_m / BIN_M) - self._first), None)
+        self._held[beyond] = self._looks[beyond] = 0.0
+
     def strip(self) -> tuple[Floats, Floats, NDArray[np.bool_]]:
         """s of each bin's far edge, whole plants in it, and whether it was ever in view; shape (bins,)."""
         s_m = (self._first + 1 + np.arange(len(self._held))) * BIN_M

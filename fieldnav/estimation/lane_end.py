@@ -11,7 +11,7 @@ from fieldnav.settings.crop import CropProfile
 
 NEIGHBOURHOOD_M = 0.4  # to either side, at least; two plants' distances where plants stand wider
 LEAST_SHARE = 0.13  # of what a lane usually holds: less is a weed or two in line with a row
-PLANT_BINS, LEAST_PLANT = 2, 0.2  # bins to either side that one plant's sightings fall into; less is a weed
+PLANT_BINS, LEAST_PLANT = 2, 0.25  # bins to either side that one plant's sightings fall into; less is a weed
 LEAST_BIN = 0.05  # of a whole plant: the far edge of where it was seen
 LEAST_OF_PROFILE = 0.3  # a thin stand holds at least this share of what the profile lets expect
 RARE = 0.01  # share of gaps that are longer than the profile's longest
@@ -61,6 +61,12 @@ class LaneEnd:
     def trail(self, s_m: Floats, weight: Floats, view_m: tuple[float, float]) -> None:
         """Take in a frame of the trailing camera."""
         self._trailing.add(s_m, weight, view_m)
+
+    def look_again(self) -> None:
+        """Rows run elsewhere than they were looked for: what was seen past the last crop does not count."""
+        if self._until_m is not None:
+            self._leading.forget(self._until_m)
+            self._seen_m = self._until_m
 
     def judge(self) -> LaneEndView:
         """What the strips say. The trailing camera has the word on what lies behind it: it saw it last."""

@@ -29,8 +29,8 @@ def information(
     """Information matrix, shape (k, k), and vector, shape (k,), of plants `off_m` left of their rows.
 
     design: shape (m, k), how each residual changes with the state, of that covariance; scatter_m: standard
-    deviation of a whole plant from its row; new: the share of the plants that earlier frames did not show, for
-    many looks at a plant are one plant's word.
+    deviation of a whole plant from its row; new: the share of the plants that earlier frames did not show,
+    for many looks at a plant are one plant's word.
     """
     expected = np.einsum("ij,jk,ik->i", design, covariance, design)
     spread_m = np.sqrt(scatter_m**2 / weight + SHAKE_M**2 + expected)
