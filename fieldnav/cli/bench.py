@@ -2,7 +2,7 @@
 
 import typer
 
-from fieldnav.cli.bench_missions import navigation, switching
+from fieldnav.cli.bench_missions import navigation, row_ends, switching
 from fieldnav.cli.bench_sight import detection, speed
 
 bench = typer.Typer(
@@ -13,4 +13,5 @@ bench = typer.Typer(
 bench.command()(detection)
 bench.command()(navigation)
 bench.command()(switching)
+bench.command("row-ends")(row_ends)
 bench.command()(speed)

@@ -1,4 +1,4 @@
-"""`fieldnav bench navigation` and `switching`: what missions come to, driven in simulation."""
+"""`fieldnav bench navigation`, `switching` and `row-ends`: what missions come to, driven in simulation."""
 
 import os
 from dataclasses import replace
@@ -20,6 +20,7 @@ from fieldnav.cli.output_folder import make_writable
 
 MOST_JOBS, MOST_SEEDS, MOST_SWITCHES, LARGEST_SEED = 256, 1000, 100_000, 2**31 - 1 - 100_000
 SHORTEST_M, LONGEST_M = 4, 2000
+MOST_KILOMETRES = 1000
 
 JobsOption = Annotated[
     int | None,
@@ -92,6 +93,33 @@ def switching(
     plan = in_short(plan) if quick else plan
     plan = replace(plan, switches=switches) if switches is not None else plan
     report_on("switching", partial(measure, plan), as_json, as_markdown)
+
+
+def row_ends(
+    kilometres: Annotated[
+        float,
+        typer.Option(min=1, max=MOST_KILOMETRES, help="Of gappy rows; each with 20 ragged ends."),
+    ] = 10.0,
+    seed: SeedOption = 1,
+    jobs: JobsOption = None,
+    quick: QuickOption = False,
+    as_json: JsonOption = False,
+    as_markdown: MarkdownOption = False,
+) -> None:
+    """Drive gappy rows to their ends, and past many ragged ends: is a gap told from an end, and where is it?
+
+    The field is sketched and the bus left out; perception, states, gate and wheels' errors are those of a
+    mission. An end is missed when the robot stops more than 0.3 m from where it should.
+    """
+    _ready(None)
+    from fieldnav.evaluation.benchmark import Plan, Progress, Report  # noqa: PLC0415 - see navigation
+    from fieldnav.evaluation.row_end import row_end_figures  # noqa: PLC0415 - loads OpenCV
+
+    def measure(tell: Progress) -> Report:
+        figures = row_end_figures(Plan(None, quick, seed), tell, jobs or processors(), kilometres)
+        return Report(tuple(figures))
+
+    report_on("row-ends", measure, as_json, as_markdown)
 
 
 def processors() -> int:

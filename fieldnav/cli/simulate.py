@@ -2,6 +2,7 @@
 
 import json
 import sys
+from dataclasses import replace
 from enum import Enum
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
@@ -42,11 +43,14 @@ def simulate(
     ] = Path("runs"),
     video: Annotated[bool, typer.Option("--video", help="Write overlay.mp4 too.")] = False,
     realtime: Annotated[bool, typer.Option("--realtime", help="No faster than the clock.")] = False,
+    sketch: Annotated[
+        bool, typer.Option("--sketch", help="Draw plants as bare stars: faster, to try settings.")
+    ] = False,
     as_json: Annotated[bool, typer.Option("--json", help="Print summary.json and nothing else.")] = False,
 ) -> int:
     """Drive a whole field in simulation: the real mission, driver and CAN frames, rendered cameras."""
     settings = _field(field, {"crop": crop, "lanes": lanes, "length_m": length, "seed": seed})
-    run = _run(settings, robot, Side(side.value), out_dir, video, realtime)
+    run = replace(_run(settings, robot, Side(side.value), out_dir, video, realtime), sketch=sketch)
     return _drive_for_programs(run) if as_json else _drive_for_people(run)
 
 

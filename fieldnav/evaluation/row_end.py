@@ -1,9 +1,10 @@
-"""Part of `bench navigation`: is the end of a lane told from a gap, and how well is it met?
+"""`bench row-ends`: is the end of a lane told from a gap, and how well is it met?
 
 Driven over sketched fields without a bus, so that ten kilometres take an hour of one core.
 """
 
 from collections.abc import Sequence
+from math import ceil
 
 import numpy as np
 
@@ -16,18 +17,23 @@ from fieldnav.settings.loading import load_robot
 
 ROBOT = "bonnbot"
 GAPPY, RAGGED = "gappy rows", "ragged row ends, all crops"
-LANES, LENGTH_M, ENDS = 50, 200.0, 200
+KILOMETRES, LENGTH_M, ENDS_PER_KILOMETRE = 10.0, 200.0, 20
 QUICK_LANES, QUICK_LENGTH_M, QUICK_ENDS = 1, 30.0, 2
 METRES_PER_KILOMETRE, CENTIMETRES = 1000.0, 100.0
 
 Ending = LaneEnding | Failed[LaneRun]
 
 
-def row_end_figures(plan: Plan, progress: Progress, processes: int = 1) -> list[Figure]:
-    """Ten kilometres of gappy rows, and two hundred ragged ends; quick: 50 m in all."""
+def row_end_figures(
+    plan: Plan, progress: Progress, processes: int = 1, kilometres: float = KILOMETRES
+) -> list[Figure]:
+    """Kilometres of gappy rows, and twenty ragged ends for each; quick: 50 m in all."""
     robot = load_robot(ROBOT)
+    lanes = ceil(kilometres * METRES_PER_KILOMETRE / LENGTH_M)
     lanes, length_m, ends = (
-        (QUICK_LANES, QUICK_LENGTH_M, QUICK_ENDS) if plan.quick else (LANES, LENGTH_M, ENDS)
+        (QUICK_LANES, QUICK_LENGTH_M, QUICK_ENDS)
+        if plan.quick
+        else (lanes, LENGTH_M, ceil(kilometres * ENDS_PER_KILOMETRE))
     )
     long = list(gappy_runs(lanes, length_m, plan.seed, robot))
     short = list(ragged_runs(ends, plan.seed, robot))

@@ -4,7 +4,6 @@ from dataclasses import dataclass
 from datetime import UTC, datetime
 from pathlib import Path
 from tempfile import TemporaryDirectory
-from typing import cast
 
 import cv2
 import numpy as np
@@ -19,7 +18,6 @@ from fieldnav.settings.field import FieldSettings
 from fieldnav.settings.robot import Robot
 from fieldnav.simulation.camera import SimulatedCamera
 from fieldnav.simulation.plan import sow
-from fieldnav.simulation.renderer import FieldRenderer
 from fieldnav.simulation.sketch import SketchRenderer
 from fieldnav.simulation.world import World, module_errors
 from states.behaviour import Task
@@ -82,8 +80,7 @@ def drive_to_end(run: LaneRun) -> LaneEnding:
     plan = sow(field, run.crop, Side.RIGHT)
     wheels = ObedientWheels(module_errors(field.wheel_errors, field.seed, field.mirrored))
     world = TickingWorld(plan, field, robot, wheels)
-    # A sketch is drawn from the same view by the same call as a rendered picture.
-    renderer = cast(FieldRenderer, SketchRenderer(plan, field, run.crop))
+    renderer = SketchRenderer(plan, field, run.crop)
     cameras = {name: SimulatedCamera(name, world, renderer) for name in CameraName}
     pinholes = {name: robot.cameras.get(name).pinhole() for name in CameraName}
     task, witness = Task(run.crop, pinholes, Side.RIGHT, lanes=1), Witness(world)

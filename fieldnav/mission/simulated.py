@@ -32,6 +32,7 @@ from fieldnav.settings.robot import Robot
 from fieldnav.simulation.camera import SimulatedCamera
 from fieldnav.simulation.plan import sow
 from fieldnav.simulation.renderer import FieldRenderer
+from fieldnav.simulation.sketch import SketchRenderer
 from fieldnav.simulation.world import World, module_errors
 from states.behaviour import Task
 from states.names import Event
@@ -57,6 +58,7 @@ class Run:
     parent: Path
     video: bool = False
     realtime: bool = False
+    sketch: bool = False
 
 
 @dataclass(frozen=True, slots=True)
@@ -90,7 +92,7 @@ def simulate(run: Run, observers: Sequence[Observer] = ()) -> Simulated:
         errors = module_errors(field.wheel_errors, field.seed, field.mirrored)
         modules = SimulatedModules(run.robot, far_end, errors, field.wheel_errors.can_delay_s)
         world = World(plan, field, run.robot, modules)
-        renderer = FieldRenderer(plan, field, run.crop)
+        renderer = (SketchRenderer if run.sketch else FieldRenderer)(plan, field, run.crop)
         cameras = {name: SimulatedCamera(name, world, renderer) for name in CameraName}
         wheels = ThorvaldWheels(run.robot, bus)
         journal = stack.enter_context(Journal(directory.journal, EPOCH))

@@ -7,12 +7,13 @@ frame does not depend on whether others were drawn.
 from collections import deque
 from dataclasses import dataclass
 from math import cos, pi, radians, sin
+from typing import Protocol
 
 import numpy as np
 
-from fieldnav.messages import CameraName, Frame
+from fieldnav.messages import CameraName, Frame, Image
 from fieldnav.settings.robot import CameraSettings
-from fieldnav.simulation.renderer import FieldRenderer, View
+from fieldnav.simulation.renderer import View
 from fieldnav.simulation.sensor import Sensor
 from fieldnav.simulation.shaking import rotation
 from fieldnav.simulation.streams import Stream, random_stream
@@ -30,10 +31,18 @@ class _Exposure:
     motion_px: tuple[float, float]
 
 
+class Renderer(Protocol):
+    """Draws a field: as it looks, or as a sketch."""
+
+    def render(self, view: View, time_s: float) -> Image:
+        """The picture, shape (height, width, 3), blue, green, red."""
+        ...
+
+
 class SimulatedCamera:
     """Looks at the world from its place on the robot."""
 
-    def __init__(self, name: CameraName, world: World, renderer: FieldRenderer) -> None:
+    def __init__(self, name: CameraName, world: World, renderer: Renderer) -> None:
         self._name, self._world, self._renderer = name, world, renderer
         self._settings: CameraSettings = world.robot.cameras.get(name)
         self._pinhole = self._settings.pinhole()
