@@ -41,7 +41,7 @@ class Guide(Protocol):
 
     @property
     def feature(self) -> Feature | None:
-        """The line that is steered by, in the image; None for a law that has none."""
+        """The middle of the lane in the image of the last look; None where nothing is known of it."""
         ...
 
     def evidence(self, pose: Pose) -> tuple[Evidence, ...]:

@@ -15,7 +15,7 @@ from fieldnav.perception.canopy import canopy_plane
 from fieldnav.perception.follow import scatter_m, widest_m
 from fieldnav.perception.ground_plants import on_ground
 from fieldnav.perception.lane import LaneFit, comb_m
-from fieldnav.perception.tracking import Feature
+from fieldnav.perception.tracking import Feature, feature
 from fieldnav.settings.crop import CropProfile
 from states.behaviour import Task
 from states.guide import Look
@@ -29,11 +29,10 @@ LEAST_SHARE = 0.05
 class PathGuide:
     """Steers by the robot's offset, heading and curvature at its centre."""
 
-    feature: Feature | None = None
-
     def __init__(self, task: Task, direction: Direction) -> None:
         self._task, self._direction = task, direction
         self._path: LanePath | None = None
+        self.feature: Feature | None = None
 
     def begin(self, fit: LaneFit, frame: Frame, pose: Pose) -> None:
         crop, camera = self._task.crop, self._task.cameras[frame.camera]
@@ -55,6 +54,7 @@ class PathGuide:
         counts = self._known.see(replace(sighting, weight=sure * sighting.weight))
         seen = counts >= crop.tracking.fewest_centres
         rows = self.rows(frame.camera, pose)
+        self.feature = feature(rows, camera)
         shown = seen if ahead > 0 else seen[::-1]
         lines = tuple(replace(row, confidence=float(now)) for row, now in zip(rows, shown, strict=True))
         return Look(lines, int(seen.sum()))

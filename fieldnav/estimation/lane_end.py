@@ -69,7 +69,7 @@ class LaneEnd:
             self._seen_m = self._until_m
 
     def judge(self) -> LaneEndView:
-        """What the strips say. The trailing camera has the word on what lies behind it: it saw it last."""
+        """What the strips say: the last crop is the furthest that either camera has seen."""
         led, trailed = self._last_crop_m(self._leading), self._last_crop_m(self._trailing)
         known = [each for each in (led, trailed) if each is not None]
         if known:
