@@ -1,5 +1,6 @@
 """Many simulated runs side by side: each job in a process of its own kind, none able to end the others."""
 
+import gc
 import signal
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from concurrent.futures import ProcessPoolExecutor, as_completed
@@ -64,11 +65,19 @@ def _run(
     if not jobs:
         return
     with _pool(min(processes, len(jobs))) as pool:
-        waiting = {pool.submit(work, job): index for index, job in jobs.items()}
+        waiting = {pool.submit(_once, work, job): index for index, job in jobs.items()}
         for done in as_completed(waiting):
             error = done.exception()
             job = jobs[waiting[done]]
             take(waiting[done], done.result() if error is None else _failed(job, error))
+
+
+def _once(work: Callable[[Job], Result], job: Job) -> Result:
+    """One job in a process of the pool; a world and its cameras know each other, and hold much."""
+    try:
+        return work(job)
+    finally:
+        gc.collect()
 
 
 def _failed(job: Job, error: BaseException) -> Failed[Job]:

@@ -19,7 +19,13 @@ EMERGED = {
     "rows": {"per_lane": 8, "spacing_m": 0.125},  # as farms drill it
     "plants": {"spacing_m": 0.02, "canopy_width_m": 0.03, "canopy_height_m": 0.06},
 }
-WEEDY = {"per_m2": 60.0, "size_m": [0.02, 0.04], "patches": 0.0}  # together some 250 plants in view
+WEEDY = {
+    "per_m2": 60.0,
+    "size_m": [0.02, 0.04],
+    "patches": 0.0,
+    "large": 0.0,
+    "lines": 0.0,
+}  # together some 250 plants in view
 STREWN_RADIUS_M = 0.012  # of a plant; just above the profile's smallest area
 STREWN_PLACE = (0.35, 0.65)  # of its cell's width and height, where a plant may stand
 SOIL_BGR, LEAF_BGR, GRAIN = (72, 96, 122), (50, 150, 70), 3.0  # colours, and their noise in grey levels
