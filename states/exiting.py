@@ -18,6 +18,8 @@ AGAIN = 0.3
 """Probability of an end below which it was a gap."""
 BEYOND_M = 1.0
 """Past the place to stop, a robot that is still not sure of the end goes no further than this."""
+AHEAD_EVERY_S = 0.1
+"""Between looks ahead: half of a camera's frames. Our choice."""
 AGREEING_FRAMES = 3
 """Frames that must show the same lane afresh before the end is judged along its rows."""
 
@@ -26,14 +28,17 @@ class Exiting:
     """Steers by the trailing camera to just past the last plants; follows again if crop comes again."""
 
     def __init__(self, task: Task, direction: Direction, lane: LaneMemory) -> None:
-        self.cameras: tuple[CameraName, ...] = (direction.leading, direction.trailing)
+        self._both = (direction.leading, direction.trailing)
+        self.cameras: tuple[CameraName, ...] = self._both
+        self._ahead_s: float | None = None
         self._task, self._direction, self._lane = task, direction, lane
         self._end: LaneEndView = lane.end.judge()
         self._agreement = Agreement(AGREEING_FRAMES)
         self._step = Step()
 
     def step(self, seen: Observation) -> Step:
-        leading, trailing = (seen.frames.get(name) for name in self.cameras)
+        leading, trailing = (seen.frames.get(name) for name in self._both)
+        self.cameras = self._both if self._due_ahead(seen.now_s, leading) else (self._direction.trailing,)
         step = self._step.continued()
         if leading is not None:
             step = self._ahead(leading, seen)
@@ -41,6 +46,12 @@ class Exiting:
             step = self._behind(trailing, seen)
         self._step = step.with_motion(self._motion(seen, step))
         return self._step
+
+    def _due_ahead(self, now_s: float, leading: Frame | None) -> bool:
+        """Whether it is time to look ahead again; it is less urgent than what is steered by."""
+        if leading is not None:
+            self._ahead_s = now_s
+        return self._ahead_s is None or now_s - self._ahead_s >= AHEAD_EVERY_S
 
     def _ahead(self, frame: Frame, seen: Observation) -> Step:
         """What the leading camera says: nothing more, or crop again, be it beside where the rows should run.
