@@ -44,6 +44,9 @@ def navigation(
         float | None,
         typer.Option(min=SHORTEST_M, max=LONGEST_M, help="Length of the lanes, m; the paper's if not given."),
     ] = None,
+    default_alone: Annotated[
+        bool, typer.Option("--default-alone", help="Leave out the paper's ways to drive.")
+    ] = False,
     jobs: JobsOption = None,
     quick: QuickOption = False,
     as_json: JsonOption = False,
@@ -60,11 +63,13 @@ def navigation(
     _ready(plot)
     from fieldnav.evaluation.navigation import NavigationPlan, in_short  # noqa: PLC0415 - loads OpenCV
     from fieldnav.evaluation.navigation import navigation as measure  # noqa: PLC0415 - the same
+    from fieldnav.evaluation.navigation_configurations import Configuration  # noqa: PLC0415 - the same
 
     names = tuple(name.strip() for name in fields.split(",") if name.strip())
     plan = NavigationPlan(names, seed, length_m=length, jobs=jobs or processors(), plots=plot)
     plan = in_short(plan) if quick else plan
     plan = replace(plan, seeds=seeds) if seeds is not None else plan
+    plan = replace(plan, ways=(Configuration.DEFAULT,)) if default_alone else plan
     report_on("navigation", partial(measure, plan), as_json, as_markdown, wide=True)
 
 
