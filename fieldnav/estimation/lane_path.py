@@ -14,6 +14,7 @@ from math import atan, hypot
 import numpy as np
 from numpy.typing import NDArray
 
+from fieldnav.estimation.first_look import KNOT_SD_M, apart, first_covariance
 from fieldnav.estimation.knots import EXTRAPOLATION, straight
 from fieldnav.estimation.lane_state import LaneState
 from fieldnav.estimation.sighting import Sighting, information
@@ -21,21 +22,12 @@ from fieldnav.messages import Floats
 from fieldnav.odometry import Pose
 
 BEHIND_M = 2.0  # as far as the trailing camera looks
-# Standard deviations of what a first look tells: offset, slope, curvature (a bend of 12 m has 0.08/m) and its
-# change with distance.
-FIRST = np.array([0.03, 0.04, 0.05, 0.02])
-FIRST_AT_M = 1.3  # in front of the robot's centre, where the first look sees the rows
-FIRST_PLACE_M, FIRST_SIDESLIP, FIRST_YAW_PER_M = 0.02, 0.03, 0.02
 # Random walks, as standard deviations after one metre: of the robot against its wheels (sideways, turning,
 # and as a share of each turn), of what pushes it, of a row's place in the lane.
 ASIDE_M, TURN_RAD, TURN_SHARE = 0.005, 0.005, 0.05
 SIDESLIP_DRIFT, YAW_DRIFT_PER_M, PLACE_DRIFT_M = 0.002, 0.002, 0.004
-KNOT_SD_M = 3e-4  # of a new knot from the curve through the last three: rows wander over metres
 LEAST_STEP_M = 1e-3  # of driving between frames that show the same plants anew
-SAME_PLANTS_M = (
-    0.3  # of driving after which a plant counts as another one: many looks at it are few plants' word
-)
-PUSHES = 2
+SAME_PLANTS_M = 0.3  # of driving after which a plant is another one: many looks at it are few plants' word
 
 
 class LanePath:
@@ -55,18 +47,7 @@ class LanePath:
         self._sideslip = self._yaw_per_m = 0.0
         self._step_m = SAME_PLANTS_M
         self._knots = straight(pose, offset_m, slope, -BEHIND_M, ahead_m)
-        self._covariance = self._first_covariance()
-
-    def _first_covariance(self) -> Floats:
-        x = self._knots.seen_from(self.pose)[:, 0] - FIRST_AT_M
-        terms = np.stack([np.ones(len(x)), x, x**2 / 2, x**3 / 6], axis=-1) * FIRST
-        rows = len(self.place_m)
-        covariance = np.zeros((len(x) + rows + PUSHES,) * 2)
-        covariance[: len(x), : len(x)] = terms @ terms.T + KNOT_SD_M**2 * np.eye(len(x))
-        places = slice(len(x), len(x) + rows)
-        covariance[places, places] = FIRST_PLACE_M**2 * _apart(rows)
-        covariance[-2, -2], covariance[-1, -1] = FIRST_SIDESLIP**2, FIRST_YAW_PER_M**2
-        return covariance
+        self._covariance = first_covariance(self._knots.seen_from(pose)[:, 0], len(place_m))
 
     def carry(self, pose: Pose) -> None:
         """Go on to a later pose, as the wheels report it."""
@@ -84,7 +65,7 @@ class LanePath:
         spread_m2 = driven_m * ASIDE_M**2
         turned_rad2 = driven_m * TURN_RAD**2 + (TURN_SHARE * turn) ** 2
         covariance[:n, :n] += spread_m2 * np.outer(aside, aside) + turned_rad2 * np.outer(turned, turned)
-        covariance[n:-2, n:-2] += driven_m * PLACE_DRIFT_M**2 * _apart(len(self.place_m))
+        covariance[n:-2, n:-2] += driven_m * PLACE_DRIFT_M**2 * apart(len(self.place_m))
         covariance[-2, -2] += driven_m * SIDESLIP_DRIFT**2
         covariance[-1, -1] += driven_m * YAW_DRIFT_PER_M**2
         self._knots = self._knots.moved(step_m * (self._sideslip * aside + self._yaw_per_m * turned))
@@ -161,8 +142,3 @@ class LanePath:
             sideslip=self._sideslip,
             yaw_per_m=self._yaw_per_m,
         )
-
-
-def _apart(rows: int) -> Floats:
-    """Covariance of places that differ from each other while their mean stays, shape (rows, rows)."""
-    return np.eye(rows) - 1 / rows
