@@ -41,7 +41,8 @@ class Figure:
             return None
         if self.goal_std is not None and not (self.std is not None and self.std <= self.goal_std):
             return False
-        return self.value >= self.goal if self.better is Better.HIGHER else self.value <= self.goal
+        reached = self.value >= self.goal if self.better is Better.HIGHER else self.value <= self.goal
+        return bool(reached)  # a value from numpy compares to a bool that JSON does not know
 
 
 @dataclass(frozen=True, slots=True)

@@ -5,6 +5,7 @@ import os
 import subprocess
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 from fieldnav import __version__
@@ -107,6 +108,17 @@ def test_a_figure_that_could_not_be_formed_is_null_and_the_document_is_json() ->
     text = json.dumps(document("detection", "abc", REPORT), allow_nan=False)
 
     assert json.loads(text)["rows"][2]["value"] is None
+
+
+def test_a_figure_measured_by_numpy_is_json_too() -> None:
+    figures = (
+        Figure("case", "metric", np.float64(0.5), goal=1.0),
+        Figure("case", "more", np.float64(2), goal=1.0),
+    )
+
+    rows = json.loads(json.dumps(document("bench", "commit", Report(figures))))["rows"]
+
+    assert [row["met"] for row in rows] == [False, True]
 
 
 def test_a_benchmark_succeeds_whatever_its_figures_are_and_says_what_it_left_out(
