@@ -33,8 +33,7 @@ class CrossingRows:
 
     def step(self, seen: Observation) -> Step:
         frame = seen.frames.get(self._direction.trailing)
-        switch = self._lane.switch
-        assert switch, "Orienting begins the switch"
+        switch = self._lane.switching
         moved = way(self._task, switch, seen)
         drawn = retreated(self._task, switch, seen, self._direction)
         reason = self._past_its_bounds(moved, drawn, switch)

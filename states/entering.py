@@ -37,8 +37,7 @@ class Entering:
         if self._from_m is None:
             self._from_m = seen.forward_m
         frame = seen.frames.get(self._direction.trailing)
-        switch = self._lane.switch
-        assert switch, "Orienting begins the switch"
+        switch = self._lane.switching
         if frame is None:
             return self._step.continued()
         rows, sight = look(self._task, switch, frame, seen)

@@ -66,6 +66,11 @@ class LaneMemory:
         assert self._end, "Acquiring begins to look for the end"
         return self._end
 
+    @property
+    def switching(self) -> SwitchMemory:
+        assert self.switch, "Orienting begins the switch"
+        return self.switch
+
     def after(self) -> "LaneMemory":
         """The memory of the lane that follows."""
         length_m = self._end.length_m() if self._end else self.expected_m

@@ -25,8 +25,7 @@ class Returning:
 
     def step(self, seen: Observation) -> Step:
         frame = seen.frames.get(self._direction.trailing)
-        switch, crop = self._lane.switch, self._task.crop
-        assert switch, "Orienting begins the switch"
+        switch, crop = self._lane.switching, self._task.crop
         moved = way(self._task, switch, seen)
         looks = Evidence("looks for the next lane", switch.looks, crop.switching.attempts, "looks")
         if switch.looks >= crop.switching.attempts:

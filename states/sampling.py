@@ -53,8 +53,7 @@ class Sampling:
         self, frame: Frame, seen: Observation, rows: tuple[RowLine, ...], evidence: tuple[Evidence, ...]
     ) -> Step:
         crop, camera = self._task.crop, self._task.cameras[frame.camera]
-        switch = self._lane.switch
-        assert switch, "Orienting begins the switch"
+        switch = self._lane.switching
         outward = self._task.outward(frame.camera)
         outermost = rows[0] if outward > 0 else rows[-1]
         switch.reference = describe(frame.image, outermost, crop, camera, 0.0, camera.centre_y_px)

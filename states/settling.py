@@ -39,8 +39,7 @@ class Settling:
 
     def step(self, seen: Observation) -> Step:
         frame = seen.frames.get(self._direction.trailing)
-        switch = self._lane.switch
-        assert switch, "Orienting begins the switch"
+        switch = self._lane.switching
         moved = way(self._task, switch, seen)
         if self._entered_s is None:
             self._entered_s = seen.now_s
