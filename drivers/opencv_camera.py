@@ -12,7 +12,7 @@ from drivers.ports import Camera
 from drivers.recorded_camera import PICTURES, Folder, RecordedCamera, Still, Video, check_size
 from fieldnav.errors import DriverError
 from fieldnav.messages import CameraName, Frame
-from fieldnav.settings.robot import CameraSettings
+from fieldnav.settings.camera import CameraSettings
 
 CLOSING_S = 2.0
 """So long closing waits for a device that is about to give a frame; longer than any exposure."""

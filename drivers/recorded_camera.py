@@ -8,7 +8,7 @@ import numpy as np
 
 from fieldnav.errors import DriverError
 from fieldnav.messages import CameraName, Frame, Image
-from fieldnav.settings.robot import CameraSettings
+from fieldnav.settings.camera import CameraSettings
 
 PICTURES = (".jpg", ".jpeg", ".png", ".bmp", ".tif", ".tiff", ".webp")
 ROUNDING = 1e-6  # of a frame: a time that is a frame's own must not fall short of it

@@ -1,5 +1,7 @@
 """The errors of fieldnav: one small tree, raised where a fault is seen and caught once at the top."""
 
+from fieldnav.faults import FaultKind
+
 
 class FieldnavError(Exception):
     """Anything fieldnav stops for; its text is one line that a person can act on."""
@@ -10,7 +12,11 @@ class SettingsError(FieldnavError):
 
 
 class DriverError(FieldnavError):
-    """A camera, the bus or a wheel module does not do what it must."""
+    """A camera, the bus or a wheel module does not do what it must; `fault` decides what is done about it."""
+
+    def __init__(self, said: str, fault: FaultKind = FaultKind.BUS_OFF) -> None:
+        super().__init__(said)
+        self.fault = fault
 
 
 class OutputError(FieldnavError):

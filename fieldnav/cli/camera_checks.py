@@ -11,7 +11,7 @@ from fieldnav.cli.findings import Finding, Verdict
 from fieldnav.errors import DriverError
 from fieldnav.messages import CameraName, Frame
 from fieldnav.perception.pose.picture_quality import difference, quality, same
-from fieldnav.settings.robot import CameraSettings
+from fieldnav.settings.camera import CameraSettings
 
 FRAMES = 8
 PATIENCE_S = 3.0

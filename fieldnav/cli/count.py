@@ -17,8 +17,8 @@ if TYPE_CHECKING:
     from fieldnav.cli.frames import Frames
     from fieldnav.perception.counting.row_count import RowCount
     from fieldnav.perception.counting.row_counter import RowCounter
+    from fieldnav.settings.camera import CameraSettings
     from fieldnav.settings.crop import CropProfile
-    from fieldnav.settings.robot import CameraSettings
 
 PART = "frames"
 MOST_MISSING = 0.05

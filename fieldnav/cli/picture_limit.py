@@ -2,7 +2,7 @@
 
 import os
 
-from fieldnav.settings.robot import LARGEST_SIDE_PX
+from fieldnav.settings.camera import LARGEST_SIDE_PX
 
 LARGEST = "OPENCV_IO_MAX_IMAGE_PIXELS"
 """OpenCV reads this from the environment when it is loaded."""

@@ -12,10 +12,10 @@ from fieldnav.cli.output_folder import make_writable
 from fieldnav.errors import SettingsError
 from fieldnav.journal.files import write_atomically
 from fieldnav.messages import Image
+from fieldnav.settings.camera import LARGEST_SIDE_PX
 from fieldnav.settings.loading import revised
 from fieldnav.settings.model import Settings
 from fieldnav.settings.regular_file import read_regular
-from fieldnav.settings.robot import LARGEST_SIDE_PX
 
 LARGEST_FILE_BYTES = 4 * LARGEST_SIDE_PX**2
 """Of a picture; room for the largest one without compression and with an alpha channel."""

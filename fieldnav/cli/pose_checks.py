@@ -11,8 +11,8 @@ from fieldnav.perception.plants import find_plants
 from fieldnav.perception.pose.camera_pose import PoseSighting, sight
 from fieldnav.perception.pose.pose_estimate import CERTAIN, Departure, PoseEstimate
 from fieldnav.pinhole import Pinhole
+from fieldnav.settings.camera import CameraLimits
 from fieldnav.settings.crop import CropProfile
-from fieldnav.settings.robot import CameraLimits
 
 LEVEL = 1  # of a sighting's plane: positive where rows converge towards the top
 

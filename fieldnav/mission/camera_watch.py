@@ -5,7 +5,7 @@ from dataclasses import replace
 from fieldnav.messages import CameraName, Evidence
 from fieldnav.perception.pose.camera_pose import sight
 from fieldnav.perception.pose.pose_estimate import Departure, PoseEstimate
-from fieldnav.settings.robot import CameraLimits
+from fieldnav.settings.camera import CameraLimits
 from states.behaviour import Step, Task
 from states.names import Follow, Path
 

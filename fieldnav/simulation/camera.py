@@ -12,7 +12,7 @@ from typing import Protocol
 import numpy as np
 
 from fieldnav.messages import CameraName, Frame, Image
-from fieldnav.settings.robot import CameraSettings
+from fieldnav.settings.camera import CameraSettings
 from fieldnav.simulation.renderer import View
 from fieldnav.simulation.sensor import Sensor
 from fieldnav.simulation.shaking import rotation

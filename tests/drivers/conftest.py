@@ -9,7 +9,8 @@ from drivers.can_log import open_virtual_pair
 from drivers.simulated_modules import SimulatedModules
 from drivers.thorvald import ThorvaldWheels
 from fieldnav.messages import Wheel, WheelReport, WheelSetpoint
-from fieldnav.settings.robot import Bus, Cameras, CameraSettings, Geometry, Limits, Module, Robot
+from fieldnav.settings.camera import Cameras, CameraSettings
+from fieldnav.settings.robot import Bus, Geometry, Limits, Module, Robot
 
 TICK_S = 0.02
 

@@ -15,8 +15,8 @@ from drivers.opencv_camera import LiveCamera, open_camera
 from drivers.ports import Camera
 from fieldnav.errors import DriverError
 from fieldnav.messages import CameraName, Frame, Image
+from fieldnav.settings.camera import CameraSettings
 from fieldnav.settings.loading import load_robot
-from fieldnav.settings.robot import CameraSettings
 
 WIDTH_PX, HEIGHT_PX, RATE_HZ = 64, 48, 10.0
 COUNT, STEP = 12, 20

@@ -14,7 +14,8 @@ from drivers.wire_layout import wire_layout
 from fieldnav.errors import DriverError
 from fieldnav.messages import STANDSTILL, Motion, Steering, Twist, Wheel, WheelReport
 from fieldnav.mission.gate import Gate
-from fieldnav.settings.robot import Bus, Cameras, CameraSettings, Geometry, Limits, Module, Robot
+from fieldnav.settings.camera import Cameras, CameraSettings
+from fieldnav.settings.robot import Bus, Geometry, Limits, Module, Robot
 
 TICK_S = 0.02
 FRESH_S = 0.05

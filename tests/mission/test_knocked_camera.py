@@ -19,8 +19,9 @@ from fieldnav.mission.simulated import Run, simulate
 from fieldnav.mission.tick import Tick
 from fieldnav.perception.canopy import canopy_plane
 from fieldnav.pinhole import Pinhole
+from fieldnav.settings.camera import CameraLimits
 from fieldnav.settings.loading import load_crop, load_field, load_robot, revised
-from fieldnav.settings.robot import CameraLimits, Robot
+from fieldnav.settings.robot import Robot
 from states.behaviour import Sight, Step, Task
 from states.names import Event
 from states.table import LANE_LEAVES

@@ -17,8 +17,8 @@ from fieldnav.messages import Floats
 from fieldnav.perception.canopy import VISIBLE_HEIGHT, canopy_plane
 from fieldnav.perception.pose.camera_pose import PoseSighting
 from fieldnav.pinhole import Pinhole
+from fieldnav.settings.camera import CameraLimits
 from fieldnav.settings.crop import CropProfile
-from fieldnav.settings.robot import CameraLimits
 
 CERTAIN = 2.0  # standard deviations beyond its limit at which a departure is believed
 OUTLIER = 3.0  # standard deviations off beyond which a sighting counts the less, the further off it is

@@ -14,8 +14,8 @@ from fieldnav.perception.canopy import canopy_plane
 from fieldnav.perception.pose.camera_pose import PoseSighting, sight
 from fieldnav.perception.pose.pose_estimate import PoseEstimate
 from fieldnav.pinhole import Pinhole
+from fieldnav.settings.camera import CameraLimits
 from fieldnav.settings.crop import CropProfile
-from fieldnav.settings.robot import CameraLimits
 
 LIMITS = CameraLimits()
 FRAMES, STEP_M = 50, 0.1
