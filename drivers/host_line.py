@@ -4,11 +4,12 @@ from collections.abc import Iterator
 
 import can
 
+from drivers.bus_watch import BusWatch
 from drivers.module_units import speed_to_per_mille, steering_to_per_mille
 from drivers.thorvald_protocol import Kind, NmtCommand, NodeState, RoboteqObject, SdoCommand
 from drivers.wire_layout import NO_NODE, Telegram, wire_layout
 from fieldnav.errors import DriverError
-from fieldnav.settings.robot import Module
+from fieldnav.settings.robot import Bus, Module
 
 BUS_ERRORS = (can.CanError, OSError)
 """What a bus raises that is gone or full: python-can's own errors, and those that backends let through."""
@@ -20,17 +21,26 @@ LAST_SEQUENCE = 2**31 - 1
 class HostLine:
     """What the host says to the modules. Every method raises DriverError when the bus refuses."""
 
-    def __init__(self, bus: can.BusABC) -> None:
+    def __init__(self, bus: can.BusABC, settings: Bus) -> None:
         self._bus = bus
+        self._watch = BusWatch(settings)
         self._layout = wire_layout()
         self.sequence = 0
 
-    def received(self) -> Iterator[Telegram]:
-        """All telegrams that wait on the bus, without waiting; frames of another layout are left out."""
-        while (frame := self._next_frame()) is not None:
-            telegram = self._layout.read(frame)
+    def received(self, now_s: float) -> Iterator[Telegram]:
+        """The telegrams that wait on the bus, without waiting; frames of another layout are left out.
+
+        A telegram without values could not be read. In a flood no more are taken than can be looked at.
+        """
+        for _ in range(self._watch.most_at_once):
+            frame = self._next_frame()
+            if frame is None:
+                break
+            self._watch.take(frame)
+            telegram = self._layout.heard(frame)
             if telegram is not None:
                 yield telegram
+        self._watch.judge(now_s)
 
     def begin_command(self) -> None:
         """The next round of set-points has a new sequence number."""

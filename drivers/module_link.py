@@ -1,9 +1,11 @@
 """The host's end of the line to one wheel module: what it last said, and whether it may move."""
 
+from collections import deque
 from collections.abc import Mapping
 from enum import Enum
 
 from drivers.module_units import speed_from_rpm, steering_from_counts
+from drivers.plausibility import plausible
 from drivers.thorvald_protocol import (
     FLAG_SIGNALS,
     IdentityPart,
@@ -28,6 +30,8 @@ READ_REPLIES = frozenset(
 )
 
 NODE_STATES = {state.value: state for state in NodeState}
+MOST_GARBLED = 5
+"""Garbled telegrams of one module within a second; CRC lets hardly ever one through. Our choice."""
 
 
 class Missing(Enum):
@@ -49,6 +53,7 @@ class ModuleLink:
         self.silent = False
         self.rebooted = False
         self.version: tuple[int, int, int] | None = None
+        self._garbled_s: deque[float] = deque(maxlen=MOST_GARBLED)
         self._emergency_code = 0
         self._speed_mps = 0.0
         self._temperature_c = 0.0
@@ -61,6 +66,7 @@ class ModuleLink:
         self.forget()
         self.heard_s = now_s
         self.silent = self.rebooted = False
+        self._garbled_s.clear()
 
     def forget(self) -> None:
         """After a lost connection or a reboot nothing that the module once said holds."""
@@ -99,8 +105,15 @@ class ModuleLink:
             battery_v=self._battery_v,
         )
 
+    def garbled(self, now_s: float) -> bool:
+        """Whether the module has said again and again what cannot be."""
+        return len(self._garbled_s) == MOST_GARBLED and now_s - self._garbled_s[0] <= 1
+
     def take(self, telegram: Telegram, now_s: float) -> None:
-        """Note what the module says; what a node must not say is passed over."""
+        """Note what the module says; what cannot be, or what a node must not say, is passed over."""
+        if not plausible(telegram, self.module):
+            self._garbled_s.append(now_s)
+            return
         values = telegram.values
         match telegram.kind:
             case Kind.MOTION:

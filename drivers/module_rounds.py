@@ -57,7 +57,7 @@ def _send_all(frames: Iterable[tuple[ModuleLink, Frame]]) -> None:
             send()
         except DriverError as error:
             if first is None:
-                first = DriverError(f"{link.name}: {error}")
+                first = DriverError(f"{link.name}: {error}", error.fault)
                 first.__cause__ = error
     if first is not None:
         raise first

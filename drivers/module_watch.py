@@ -2,9 +2,10 @@
 
 from collections.abc import Collection
 
-from drivers.module_link import ModuleLink
+from drivers.module_link import MOST_GARBLED, ModuleLink
 from drivers.thorvald_protocol import FaultFlag, words
 from fieldnav.errors import DriverError
+from fieldnav.faults import FaultKind
 
 START_LIMIT_S = 5.0
 """How long bringing up may take: twice the 2 s in which TPDO4 tells both its parts, and one; our choice."""
@@ -41,13 +42,23 @@ def check_modules(
         if link.silent:
             silence_s = now_s - link.heard_s
             raise DriverError(
-                f"{link.name} has been silent for {silence_s:.2f} s, limit {silence_limit_s:.2f} s"
+                f"{link.name} has been silent for {silence_s:.2f} s, limit {silence_limit_s:.2f} s",
+                FaultKind.MODULE_SILENT,
+            )
+        if link.garbled(now_s):
+            link.begin(now_s)
+            raise DriverError(
+                f"{link.name} has said {MOST_GARBLED} times within a second what cannot be",
+                FaultKind.BUS_GARBLED,
             )
         if link.rebooted:
             link.rebooted = False
-            raise DriverError(f"{link.name} has left operation or rebooted")
+            raise DriverError(f"{link.name} has left operation or rebooted", FaultKind.MODULE_REBOOTED)
         objected = objection(link)
         if objected is not None:
-            raise DriverError(objected)
+            raise DriverError(objected, FaultKind.MODULE_OTHER)
         if link.missing is not None and now_s - starting_s > START_LIMIT_S:
-            raise DriverError(f"{link.name} has not told {link.missing.value} within {START_LIMIT_S:.0f} s")
+            raise DriverError(
+                f"{link.name} has not told {link.missing.value} within {START_LIMIT_S:.0f} s",
+                FaultKind.MODULE_SILENT,
+            )

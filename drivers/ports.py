@@ -29,6 +29,11 @@ class Wheels(Protocol):
         """Whether all modules are up and are the ones of the robot file."""
         ...
 
+    @property
+    def taken_over(self) -> bool:
+        """Whether somebody else has commanded the wheels a moment ago; they are then left alone."""
+        ...
+
     def start(self, now_s: float) -> None:
         """Bring the modules to operation and command zero; nothing moves before this."""
         ...
@@ -43,6 +48,14 @@ class Wheels(Protocol):
 
     def stop(self, now_s: float) -> None:
         """Command zero speed at the present steering angles; never raises, may be repeated."""
+        ...
+
+    def emergency_stop(self, now_s: float) -> None:
+        """Zero, then the modules' own emergency stop. Raises DriverError when a frame did not go out."""
+        ...
+
+    def release_emergency_stop(self, now_s: float) -> None:
+        """Zero, then let the modules run again; only ever on the explicit act of a person."""
         ...
 
     def close(self) -> None: ...

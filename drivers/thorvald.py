@@ -13,9 +13,11 @@ from drivers.host_line import HostLine
 from drivers.module_link import ModuleLink
 from drivers.module_rounds import ModuleRounds
 from drivers.module_watch import check_modules, objection
-from drivers.thorvald_protocol import RoboteqObject
+from drivers.takeover import Takeover
+from drivers.thorvald_protocol import Kind, RoboteqObject
 from drivers.wire_layout import check_nodes
 from fieldnav.errors import DriverError
+from fieldnav.faults import FaultKind
 from fieldnav.messages import Wheel, WheelReport, WheelSetpoint
 from fieldnav.settings.robot import Robot
 
@@ -31,7 +33,7 @@ class ThorvaldWheels:
 
     def __init__(self, robot: Robot, bus: can.BusABC) -> None:
         check_nodes(robot)
-        self._line = HostLine(bus)
+        self._line = HostLine(bus, robot.can)
         self._timeouts = robot.timeouts
         self._links = {wheel: ModuleLink(wheel, robot.modules[wheel]) for wheel in Wheel}
         self._by_node = {link.module.node_id: link for link in self._links.values()}
@@ -41,6 +43,8 @@ class ThorvaldWheels:
         self._asked_s = 0.0
         self._commanded_s = 0.0
         self._heartbeat_s = -math.inf
+        self._takeover, self.taken_over = Takeover(), False
+        self._charge_percent: float | None = None
 
     @property
     def ready(self) -> bool:
@@ -65,11 +69,14 @@ class ThorvaldWheels:
     def poll(self, now_s: float) -> WheelReport:
         """Take in all frames that wait, do what is due, and check that every module is well.
 
-        Raises DriverError for a module that is silent, has rebooted, or is not the one of the robot file.
+        Raises DriverError for a module that is silent, has rebooted, or is not the one of the robot file,
+        for a bus that is flooded or off, and for commands that somebody else begins to give.
         """
         back = self._receive(now_s)
+        self.taken_over = self._takeover.lasts(now_s)
         if self._started:
-            if back or now_s - self._commanded_s > self._timeouts.command_s:
+            late = now_s - self._commanded_s > self._timeouts.command_s
+            if (back or late) and not self.taken_over:
                 self._rounds.drive(now_s, {})
             if back or now_s - self._asked_s >= RETRY_S:
                 self._ask(now_s)
@@ -77,17 +84,21 @@ class ThorvaldWheels:
                 self._beat(now_s)
             check_modules(self._links.values(), now_s, self._starting_s, self._timeouts.module_s)
         reports = {wheel: link.report for wheel, link in self._links.items()}
-        return WheelReport({wheel: report for wheel, report in reports.items() if report is not None})
+        said = {wheel: report for wheel, report in reports.items() if report is not None}
+        return WheelReport(said, self._charge_percent)
 
     def command(self, now_s: float, setpoints: Mapping[Wheel, WheelSetpoint]) -> None:
         """Send a set-point to each module; zero while not `ready` and to a wheel that is not mentioned.
 
+        While somebody else commands the wheels nothing is sent: two hosts would make them jerk.
         Raises DriverError when a number is not finite (zero has then been sent) or the bus refuses a frame
         (the other modules then have theirs).
         """
         self._commanded_s = now_s
         numbers = [number for point in setpoints.values() for number in (point.speed_mps, point.steering_rad)]
         finite = all(map(math.isfinite, numbers))
+        if self.taken_over:
+            return
         self._rounds.drive(now_s, setpoints if finite and self.ready else {})
         if not finite:
             raise DriverError("a wheel command is not a finite number; zero was sent instead")
@@ -120,14 +131,21 @@ class ThorvaldWheels:
 
     def _receive(self, now_s: float) -> bool:
         """Drain the bus; whether a module came back from silence or from a reboot."""
-        back = False
-        for telegram in self._line.received():
+        back, foreign = False, ""
+        for telegram in self._line.received(now_s):
             link = self._by_node.get(telegram.node)
-            if link:
+            if self._takeover.is_command(telegram):
+                called = link.name if link else "the bus"
+                foreign = self._takeover.note(telegram, called, now_s) or foreign
+            elif telegram.kind is Kind.BATTERY_CHARGE and telegram.values:
+                self._charge_percent = telegram.values["StateOfCharge"]
+            elif link:
                 link.take(telegram, now_s)
                 back |= link.rebooted or (link.silent and link.heard_s == now_s)
         if back:
             self._starting_s = now_s
+        if foreign:
+            raise DriverError(foreign, FaultKind.FOREIGN_COMMAND)
         return back
 
     def _ask(self, now_s: float) -> None:

@@ -71,15 +71,22 @@ class WireLayout:
 
     def read(self, frame: can.Message) -> Telegram | None:
         """What a frame says; None for one that is not of this layout: wrong id, length, part or type."""
+        telegram = self.heard(frame)
+        return telegram if telegram and telegram.values else None
+
+    def heard(self, frame: can.Message) -> Telegram | None:
+        """The same, but without values where the id is known and the rest cannot be read."""
         if frame.is_extended_id or frame.is_remote_frame or frame.is_error_frame:
             return None
         found = self._by_frame_id.get(frame.arbitration_id)
-        if found is None or len(frame.data) != found[2].length:
+        if found is None:
             return None
+        if len(frame.data) != found[2].length:
+            return Telegram(found[0], found[1], {})
         try:
             values = found[2].decode(bytes(frame.data), decode_choices=False)
         except cantools.database.DecodeError:  # a multiplexer value that the layout does not have
-            return None
+            return Telegram(found[0], found[1], {})
         return Telegram(found[0], found[1], values)  # type: ignore[arg-type]  # without choices: all numbers
 
 

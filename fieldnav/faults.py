@@ -156,3 +156,18 @@ FAULTS: dict[FaultKind, Declared] = {
         Reaction.MODULES_STOP, "no new sequence number for the modules' watchdog", "run --resume"
     ),
 }
+
+
+@dataclass(frozen=True, slots=True)
+class Trouble:
+    """A fault that has been noticed, and what was seen of it."""
+
+    fault: FaultKind
+    said: str
+
+    @property
+    def reaction(self) -> Reaction:
+        return FAULTS[self.fault].reaction
+
+    def __str__(self) -> str:
+        return f"{self.fault.value}: {self.said}"

@@ -138,9 +138,10 @@ class ModuleReport:
 
 @dataclass(frozen=True, slots=True)
 class WheelReport:
-    """The modules' newest words; a module never heard of is absent."""
+    """The modules' newest words, a module never heard of is absent; the battery's charge in percent."""
 
     modules: Mapping[Wheel, ModuleReport] = field(default_factory=dict)
+    charge_percent: float | None = None
 
 
 @dataclass(frozen=True, slots=True)

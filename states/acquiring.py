@@ -47,7 +47,7 @@ class Acquiring:
         motion = self._creep(seen.now_s - entered_s)
         if agreed and found.lane:
             begin_m = driven_m(seen, self._direction) - CREEP_LIMIT_M
-            end = LaneEnd(self._task.crop, begin_m, self._lane.expected_m)
+            end = LaneEnd(self._task.crop, begin_m, self._lane.expected_m, self._lane.from_m)
             self._lane.enter(guide_for(self._task, self._direction), end)
             self._lane.guide.begin(found.lane, frame, seen.exposed_at(frame))
             self._lane.counts[found.lane.rows_seen] += 1

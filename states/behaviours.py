@@ -13,11 +13,14 @@ from states.machine import Change
 from states.memory import LaneMemory
 from states.names import Event, Follow, Path, Phase, Sidestep, direction_of
 from states.orienting import Orienting
+from states.place import Place, Resumption, resumption
+from states.resuming import ResumingLane
+from states.resuming_sidestep import ResumingSidestep
 from states.returning import Returning
 from states.sampling import Sampling
 from states.settling import Settling
 from states.standing import Checking, Standing
-from states.table import CHECKING
+from states.table import CHECKING, RESUMING
 from states.tracking import Tracking
 from states.verifying import Verifying
 
@@ -37,21 +40,41 @@ _IN_LANE: dict[Path, Callable[[Task, Direction, LaneMemory], Behaviour]] = {
 
 
 class Behaviours:
-    """Makes the behaviour of each leaf as it is entered; every lane and switch begins with a fresh memory."""
+    """Makes the behaviour of each leaf as it is entered; every lane and switch begins with a fresh memory.
+
+    `done`: the lanes that were left behind.
+    """
 
     def __init__(self, task: Task) -> None:
         self._task = task
         self.lane = LaneMemory(number=1)
+        self.done: tuple[int, ...] = ()
         self.current: Behaviour = Standing()
+        self._resumption: Resumption | None = None
+
+    def resume(self, place: Place) -> None:
+        """Take over a place from the ledger: once the checks are passed, go on from there."""
+        self._resumption = resumption(place)
+        self.lane, self.done = self._resumption.lane, place.done
 
     def enter(self, change: Change) -> None:
         """Take up the state that the machine has gone to."""
-        if change.event is Event.LANE_CENTRED:
+        if change.event in (Event.LANE_LEFT, Event.LAST_LANE_LEFT):
+            self.done = tuple(sorted({*self.done, self.lane.number}))
+        elif change.event is Event.LANE_CENTRED:
             self.lane = self.lane.after()
+        elif change.event is Event.PLACE_FITS:
+            self._resumption = None
         self.current = self._make(change.target)
 
     def _make(self, leaf: Path) -> Behaviour:
         direction = direction_of(leaf)
         if isinstance(direction, Direction):
             return _IN_LANE[leaf[1:]](self._task, direction, self.lane)
-        return Checking(self._task) if leaf == CHECKING else Standing()
+        if leaf == CHECKING:
+            return Checking(self._task, Event.RESUME if self._resumption else Event.READY)
+        return self._resuming(self._resumption) if leaf == RESUMING and self._resumption else Standing()
+
+    def _resuming(self, known: Resumption) -> Behaviour:
+        between = Sidestep.RETURNING in known.leaf
+        return (ResumingSidestep if between else ResumingLane)(self._task, known, self.lane)

@@ -24,7 +24,7 @@ class Guide(Protocol):
     """Follows one lane from its first look to its exit. Poses are those of the robot's dead reckoning."""
 
     def begin(self, fit: LaneFit, frame: Frame, pose: Pose) -> None:
-        """The lane has been found, or found again, in a frame of the leading camera taken at a pose."""
+        """The lane has been found, or found again, in a frame of either camera taken at a pose."""
         ...
 
     def look(self, frame: Frame, centres: Centres, pose: Pose) -> Look:

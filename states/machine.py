@@ -6,13 +6,14 @@ from enum import Enum
 from functools import partial
 from typing import Any
 
+from transitions import MachineError
 from transitions.extensions import HierarchicalMachine
 
 from states.names import Event, Path
-from states.table import CHECKING, IDLE, LANE_LEAVES, LEAVES, TRANSITIONS
+from states.table import CHECKING, IDLE, LANE_LEAVES, LEAVES, RESUMING, TRANSITIONS
 
 SEPARATOR = "_"  # of the transitions package; no name in the table contains it
-RESUMABLE = (CHECKING, *LANE_LEAVES)
+RESUMABLE = (CHECKING, RESUMING, *LANE_LEAVES)
 
 
 @dataclass(frozen=True, slots=True)
@@ -33,11 +34,15 @@ class _Model:
 
 
 class MissionMachine:
-    """Holds the mission's state; remembers where a pause or a fault interrupted it."""
+    """Holds the mission's state; remembers where a pause or a fault interrupted it.
+
+    `expected`: where a mission that was broken off is to go on, once what is seen fits its ledger.
+    """
 
     def __init__(self) -> None:
         self._model = _Model()
         self._interrupted: Path | None = None
+        self.expected: Path | None = None
         HierarchicalMachine(
             model=self._model,
             states=_nested(LEAVES),
@@ -57,15 +62,16 @@ class MissionMachine:
     def fire(self, event: Event) -> Change:
         """Make the transition; raises transitions.MachineError when there is none from here."""
         source = self.leaf
-        self._model.trigger(event.name)
+        if not self._model.trigger(event.name):
+            raise MachineError(f"{event.value}: nothing is known of where to go on")
         if event in (Event.PAUSE, Event.FAIL) and source in RESUMABLE:
             self._interrupted = source
         elif event in (Event.RESET, Event.RESUME):
             self._interrupted = None
         return Change(source, event, self.leaf)
 
-    def _resumes(self, leaf: Path) -> bool:
-        return self._interrupted == leaf
+    def _goes_on(self, event: Event, leaf: Path) -> bool:
+        return leaf == (self._interrupted if event is Event.RESUME else self.expected)
 
     def _rows(self) -> Iterator[dict[str, Any]]:
         for row in TRANSITIONS:
@@ -74,7 +80,7 @@ class MissionMachine:
                 yield {**base, "dest": _key(row.target)}
                 continue
             for leaf in RESUMABLE:
-                yield {**base, "dest": _key(leaf), "conditions": partial(self._resumes, leaf)}
+                yield {**base, "dest": _key(leaf), "conditions": partial(self._goes_on, row.event, leaf)}
 
 
 def _key(path: Path) -> str:

@@ -8,6 +8,7 @@ from fieldnav.odometry import Pose
 from fieldnav.perception.recognition import Descriptors
 from fieldnav.perception.sidestep.passing_rows import Crossing
 from states.guide import Guide, Look
+from states.names import Path
 
 OFTEN = 0.1
 """Share of a lane's frames: gaps hide a row in most of them at times, but not in nine of ten."""
@@ -38,23 +39,36 @@ class SwitchMemory:
 class LaneMemory:
     """One lane: what guides along it, where it ends, and how many rows were seen how often.
 
-    expected_m: the length of the lanes before, None on the first; pitches_m: distances from lane to lane, as
-    the switches before have found them.
+    expected_m: the length of the lanes before, None on the first; from_m: the driven distance at which its
+    first crop was judged, where it is known from before; pitches_m: distances from lane to lane, as the
+    switches before have found them; resumes: the state in which a broken-off mission goes on in this lane.
     """
 
     number: int
     expected_m: float | None = None
+    from_m: float | None = None
     under_way: bool = False
     trailing: Look | None = None
     counts: Counter[int] = field(default_factory=Counter)
     switch: SwitchMemory | None = None
     pitches_m: tuple[float, ...] = ()
+    resumes: Path | None = None
     _guide: Guide | None = None
     _end: LaneEnd | None = None
 
     def enter(self, guide: Guide, end: LaneEnd) -> None:
         """The lane has been found; found again, it still ends where it did."""
         self._guide, self._end, self.under_way = guide, self._end or end, True
+
+    @property
+    def first_crop_m(self) -> float | None:
+        """The driven distance at which the lane's first crop was judged; None before that."""
+        return self._end.first_m if self._end else self.from_m
+
+    @property
+    def length_m(self) -> float | None:
+        """From the lane's first crop to the last that was seen; None before any was."""
+        return self._end.length_m() if self._end else None
 
     @property
     def guide(self) -> Guide:
@@ -73,7 +87,7 @@ class LaneMemory:
 
     def after(self) -> "LaneMemory":
         """The memory of the lane that follows."""
-        length_m = self._end.length_m() if self._end else self.expected_m
+        length_m = self.length_m if self._end else self.expected_m
         pitch_m = self.switch.pitch_m if self.switch else None
         pitches_m = self.pitches_m if pitch_m is None else (*self.pitches_m, pitch_m)
         return LaneMemory(self.number + 1, length_m, pitches_m=pitches_m)

@@ -13,6 +13,7 @@ class Top(Enum):
 
     IDLE = "Idle"
     CHECKING = "Checking"
+    RESUMING = "Resuming"
     PAUSED = "Paused"
     FAULT = "Fault"
     FINISHED = "Finished"
@@ -74,6 +75,7 @@ class Event(Enum):
     LANE_CENTRED = "lane centred"
     PAUSE = "pause"
     RESUME = "resume"
+    PLACE_FITS = "place fits"
     FAIL = "fail"
     LATCH = "latch"
     RESET = "reset"

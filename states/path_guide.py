@@ -38,8 +38,10 @@ class PathGuide:
         crop, camera = self._task.crop, self._task.cameras[frame.camera]
         _, far_m = canopy_plane(camera, crop).view_m
         scatter = scatter_m(crop)
+        # What the trailing camera sees is the same line looked at the other way round.
+        offset_m = fit.offset_m if frame.camera is self._direction.leading else -fit.offset_m
         travelling = self._travelling(pose)
-        self._path = LanePath(travelling, fit.offset_m, fit.slope, comb_m(crop), scatter, far_m)
+        self._path = LanePath(travelling, offset_m, fit.slope, comb_m(crop), scatter, far_m)
 
     def look(self, frame: Frame, centres: Centres, pose: Pose) -> Look:
         crop, camera = self._task.crop, self._task.cameras[frame.camera]

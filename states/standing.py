@@ -22,8 +22,9 @@ class Checking:
 
     cameras: tuple[CameraName, ...] = tuple(CameraName)
 
-    def __init__(self, task: Task) -> None:
-        self._task = task
+    def __init__(self, task: Task, ready: Event = Event.READY) -> None:
+        """ready: what to do when all is well: begin, or look for the place to go on."""
+        self._task, self._ready = task, ready
         self._entered_s: float | None = None
         self._sizes: dict[CameraName, tuple[int, int]] = {}
 
@@ -42,7 +43,7 @@ class Checking:
         if wrong:
             return Step(event=Event.FAIL, evidence=evidence, reason=self._mismatch(wrong[0]))
         if len(self._sizes) == len(CameraName) and seen.wheels_ready:
-            return Step(event=Event.READY, evidence=evidence)
+            return Step(event=self._ready, evidence=evidence)
         if waited_s > CHECK_S:
             return Step(event=Event.FAIL, evidence=evidence, reason="cameras or wheel modules do not come up")
         return Step(evidence=evidence)

@@ -7,6 +7,7 @@ from states.names import Event, Fault, Follow, Path, Phase, Sidestep, Top
 
 IDLE: Path = (Top.IDLE,)
 CHECKING: Path = (Top.CHECKING,)
+RESUMING: Path = (Top.RESUMING,)
 PAUSED: Path = (Top.PAUSED,)
 RECOVERABLE: Path = (Top.FAULT, Fault.RECOVERABLE)
 LATCHED: Path = (Top.FAULT, Fault.LATCHED)
@@ -15,7 +16,7 @@ FINISHED: Path = (Top.FINISHED,)
 
 @dataclass(frozen=True, slots=True)
 class Transition:
-    """On `event` in `source` or its children go to `target`; None: to where the mission was interrupted."""
+    """On `event` in `source` or its children go to `target`; None: to where the mission is to go on."""
 
     source: Path
     event: Event
@@ -60,14 +61,19 @@ def _lane_transitions(direction: Direction) -> tuple[Transition, ...]:
 LANE_LEAVES = _lane_leaves(Direction.FORWARD) + _lane_leaves(Direction.BACKWARD)
 """The states in which the wheels may move, and no others."""
 
-LEAVES: tuple[Path, ...] = (IDLE, CHECKING, *LANE_LEAVES, PAUSED, RECOVERABLE, LATCHED, FINISHED)
+LEAVES: tuple[Path, ...] = (IDLE, CHECKING, RESUMING, *LANE_LEAVES, PAUSED, RECOVERABLE, LATCHED, FINISHED)
 
 TRANSITIONS: tuple[Transition, ...] = (
     Transition(IDLE, Event.START, CHECKING),
     Transition(CHECKING, Event.READY, (Direction.FORWARD, Phase.FOLLOW, Follow.ACQUIRING)),
+    Transition(CHECKING, Event.RESUME, RESUMING),
     Transition(CHECKING, Event.FAIL, RECOVERABLE),
     Transition(CHECKING, Event.LATCH, LATCHED),
     Transition(CHECKING, Event.PAUSE, PAUSED),
+    Transition(RESUMING, Event.PLACE_FITS, None),
+    Transition(RESUMING, Event.FAIL, RECOVERABLE),
+    Transition(RESUMING, Event.LATCH, LATCHED),
+    Transition(RESUMING, Event.PAUSE, PAUSED),
     *_lane_transitions(Direction.FORWARD),
     *_lane_transitions(Direction.BACKWARD),
     Transition(PAUSED, Event.RESUME, None),

@@ -42,14 +42,18 @@ class LaneEndView:
 class LaneEnd:
     """Both cameras' strips of one lane; s counts from where the lane was entered."""
 
-    def __init__(self, crop: CropProfile, begin_m: float, expected_m: float | None) -> None:
-        """begin_m: the least s that is seen; expected_m: length of the lanes before, None on the first."""
+    def __init__(
+        self, crop: CropProfile, begin_m: float, expected_m: float | None, first_m: float | None = None
+    ) -> None:
+        """begin_m: the least s that is seen; expected_m: length of the lanes before, None on the first;
+        first_m: s of the lane's first crop, where it is known already.
+        """
         self._crop, self._expected_m = crop, expected_m
         self._leading, self._trailing = CropAlong(begin_m), CropAlong(begin_m)
         plants = crop.plants
         # Plants that touch are seen as one: regions are not told apart further than a canopy's width.
         self._full_per_m = crop.rows.per_lane / max(plants.spacing_m, plants.canopy_width_m)
-        self._first_m: float | None = None
+        self.first_m = first_m
         self._until_m: float | None = None
         self._seen_m = begin_m
 
@@ -75,13 +79,13 @@ class LaneEnd:
         if known:
             self._until_m = max(known)
         until = self._seen_m if self._until_m is None else self._until_m  # strips forget, in a long gap
-        if self._first_m is None:
-            self._first_m = until
+        if self.first_m is None:
+            self.first_m = until
         return LaneEndView(until, self._seen_m, self._probability(until))
 
     def length_m(self) -> float:
         """From where crop was first judged to the last."""
-        return self.judge().crop_until_m - (self._first_m or 0.0)
+        return self.judge().crop_until_m - (self.first_m or 0.0)
 
     def _last_crop_m(self, along: CropAlong) -> float | None:
         """s of the last crop: a whole plant or what is left of one, with a stand about it."""
@@ -112,7 +116,7 @@ class LaneEnd:
         if self._expected_m is None:
             return ENDS_PER_M
         spread = LENGTH_SD_M + LENGTH_SD_SHARE * self._expected_m
-        off = (until_m - (self._first_m or 0.0) - self._expected_m) / spread
+        off = (until_m - (self.first_m or 0.0) - self._expected_m) / spread
         like_before = exp(-off * off / 2) / (spread * sqrt(2 * pi))
         return (1 - ODD_LANES) * like_before + ODD_LANES * ENDS_PER_M
 

@@ -24,6 +24,7 @@ class ObedientWheels:
     """The Wheels port and, for the world, the modules behind it."""
 
     ready = True
+    taken_over = False
 
     def __init__(self, errors: Mapping[Wheel, ModuleErrors]) -> None:
         self._errors = errors
@@ -45,6 +46,12 @@ class ObedientWheels:
 
     def stop(self, now_s: float) -> None:
         self._told = {wheel: WheelSetpoint(0.0, told.steering_rad) for wheel, told in self._told.items()}
+
+    def emergency_stop(self, now_s: float) -> None:
+        self.stop(now_s)
+
+    def release_emergency_stop(self, now_s: float) -> None:
+        """They obey again as it is."""
 
     def close(self) -> None:
         """Nothing to give back."""

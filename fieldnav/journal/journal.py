@@ -13,19 +13,25 @@ from pydantic import ValidationError
 from fieldnav.errors import FieldnavError, OutputError
 from fieldnav.journal.entry import Entry, Line, line_of
 
+RESERVE_BYTES = 65536
+"""Some fifty lines."""
+
 
 class Journal:
     """Appends entries to a file; an existing journal is continued after its last whole line.
 
+    Some room is kept beside it: once the disk is full that is given up, for the line that says so.
     Raises OutputError when the file cannot be written.
     """
 
     def __init__(self, path: Path, start_utc: datetime) -> None:
         self._path = path
         self._start_utc = start_utc
+        self._reserve = path.with_name(f".{path.name}.reserve")
         try:
             self._sequence = _repair(path)
             self._file = path.open("ab", buffering=0)
+            self._reserve.write_bytes(bytes(RESERVE_BYTES))
             _sync_folder(path.parent)
         except OSError as error:
             raise _unwritable(path, error) from error
@@ -42,11 +48,13 @@ class Journal:
         except OSError as error:
             with suppress(OSError):  # the disk is failing already; a torn line would hide the ones after it
                 self._file.truncate(whole_lines)
+                self._reserve.unlink(missing_ok=True)
             raise _unwritable(self._path, error) from error
         self._sequence += 1
 
     def close(self) -> None:
         self._file.close()
+        self._reserve.unlink(missing_ok=True)
 
     def __enter__(self) -> Self:
         return self
@@ -66,15 +74,13 @@ def read(path: Path) -> list[Line]:
         content = path.read_bytes()
     except OSError as error:
         raise FieldnavError(f"{path}: cannot be read: {error.strerror}") from error
-    texts = content.splitlines(keepends=True)
+    *texts, torn = content.split(b"\n")  # no other line break: a stray one may not hide what follows it
     lines = []
     for number, text in enumerate(texts, start=1):
-        if not text.endswith(b"\n"):
-            break
         try:
             lines.append(Line.model_validate_json(text))
         except ValidationError as error:
-            if number == len(texts):
+            if number == len(texts) and not torn:
                 break
             raise FieldnavError(f"{path}: line {number} is not a line of a journal") from error
     return lines

@@ -31,7 +31,7 @@ class Chronicle:
 
     def held(self, now_s: float, leaf: Path, passed: Passed) -> None:
         """Write down, once a state, that the gate held the wheels although the state wanted to move."""
-        if passed.reason is not None and self._held_in != leaf:
+        if passed.refused is not None and self._held_in != leaf:
             self._held_in = leaf
             self.noted(now_s, "held by the gate", leaf, Step(reason=passed.reason))
 

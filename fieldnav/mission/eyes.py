@@ -1,38 +1,102 @@
 """The cameras as the loop sees them: the frames that are new, and how old the newest ones are."""
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import dataclass
 
 from drivers.ports import Camera
+from fieldnav.errors import DriverError
+from fieldnav.faults import FaultKind, Reaction, Trouble
 from fieldnav.messages import CameraName, Frame
-from fieldnav.mission.refusal import FUTURE_S
+from fieldnav.mission.frame_rate import FrameRate
+from fieldnav.mission.picture_watch import PictureWatch
+from fieldnav.mission.refusal import FUTURE_S, Sight
+from fieldnav.odometry import Pose
+from fieldnav.pinhole import Pinhole
+from fieldnav.settings.robot import Robot
+
+
+@dataclass(slots=True)
+class _Eye:
+    """One camera: what it gave, what may be gone by, and what is wrong with the rest."""
+
+    camera: Camera
+    watch: PictureWatch
+    rate: FrameRate
+    given: Frame | None = None
+    usable: Frame | None = None
+    trouble: Trouble | None = None
 
 
 class Eyes:
-    """Keeps each camera's newest frame; a frame is handed on once, and never when it has become stale."""
+    """Keeps each camera's newest usable frame; a frame is handed on once, and never when it has become stale.
 
-    def __init__(self, cameras: Mapping[CameraName, Camera], stale_s: float) -> None:
-        self._cameras, self._stale_s = cameras, stale_s
-        self._newest: dict[CameraName, Frame] = {}
+    What is black, white or frozen is no sight: the newest frame that can be gone by then grows old.
+    """
 
-    def look(self, now_s: float, guides: Iterable[CameraName]) -> dict[CameraName, Frame]:
-        """The frames, of those cameras that guide, that are new since the last look and not stale."""
+    def __init__(
+        self, cameras: Mapping[CameraName, Camera], pinholes: Mapping[CameraName, Pinhole], robot: Robot
+    ) -> None:
+        self._stale_s = robot.timeouts.frame_s
+        self._eyes = {
+            name: _Eye(camera, PictureWatch(pinholes[name]), FrameRate(robot.cameras.get(name).rate_hz))
+            for name, camera in cameras.items()
+        }
+
+    def look(
+        self, now_s: float, guides: Iterable[CameraName], pose_at: Callable[[float], Pose]
+    ) -> dict[CameraName, Frame]:
+        """The frames, of those cameras that guide, that are new since the last look and can be gone by.
+
+        Raises DriverError for what does not mend by waiting: the wrong size, upside down.
+        """
         fresh = {}
         for name in guides:
-            frame = self._cameras[name].latest(now_s)
-            if frame is not None and frame is not self._newest.get(name):
-                self._newest[name] = frame
-                if -FUTURE_S <= now_s - frame.stamp_s <= self._stale_s:
-                    fresh[name] = frame
+            eye = self._eyes[name]
+            frame = self._given(eye, now_s)
+            if frame is None or frame is eye.given:
+                continue
+            eye.given = frame
+            eye.rate.add(frame)
+            if not -FUTURE_S <= now_s - frame.stamp_s <= self._stale_s:
+                eye.usable, eye.trouble = frame, None  # its age speaks for itself
+                continue
+            eye.trouble = eye.watch.objection(frame, pose_at(frame.stamp_s))
+            if eye.trouble is None:
+                eye.usable = fresh[name] = frame
         return fresh
 
-    def age_s(self, now_s: float, guides: Iterable[CameraName]) -> float | None:
-        """The worst age of the newest frames that guide; 0 where none does, None before the first.
+    def _given(self, eye: _Eye, now_s: float) -> Frame | None:
+        try:
+            return eye.camera.latest(now_s)
+        except DriverError as error:
+            trouble = Trouble(error.fault, str(error))
+            if trouble.reaction is not Reaction.HOLD:
+                raise
+            eye.trouble = trouble
+            return None
+
+    def sight(self, now_s: float, guides: Iterable[CameraName]) -> Sight:
+        """The worst age of the newest frames that guide, and what is wrong with the cameras that give none.
 
         A stamp in the future, a negative age, is worse than any old one.
         """
-        frames = [self._newest.get(name) for name in guides]
-        ages = [now_s - frame.stamp_s for frame in frames if frame is not None]
-        if len(ages) < len(frames):
-            return None
+        eyes = [self._eyes[name] for name in guides]
+        trouble = next((eye.trouble for eye in eyes if eye.trouble), None)
+        ages = [now_s - eye.usable.stamp_s for eye in eyes if eye.usable]
+        if len(ages) < len(eyes):
+            return Sight(None, trouble)
         youngest = min(ages, default=0.0)
-        return youngest if youngest < -FUTURE_S else max(ages, default=0.0)
+        return Sight(youngest if youngest < -FUTURE_S else max(ages, default=0.0), trouble)
+
+    def slowness(self, guides: Iterable[CameraName]) -> tuple[float, Trouble | None]:
+        """Share of the speed that the slowest camera's rate allows, and what is to be said of it."""
+        share, slowest = min(
+            ((self._eyes[name].rate.share, name) for name in guides),
+            key=lambda pair: pair[0],
+            default=(1.0, CameraName.FRONT),
+        )
+        if share >= 1:
+            return 1.0, None
+        return share, Trouble(
+            FaultKind.CAMERA_SLOW, f"{slowest.value} camera: {self._eyes[slowest].rate.said}"
+        )

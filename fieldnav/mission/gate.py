@@ -7,8 +7,9 @@ from math import cos, inf, pi, radians
 from drivers.ports import Wheels
 from fieldnav.control.kinematics import wheel_setpoints
 from fieldnav.control.limits import limit
+from fieldnav.faults import Trouble
 from fieldnav.messages import STANDSTILL, Motion, Steering, Twist, Wheel, WheelReport, WheelSetpoint
-from fieldnav.mission.refusal import refusal
+from fieldnav.mission.refusal import Sight, refusal
 from fieldnav.settings.robot import Robot
 
 MODE_CHANGE_RIM_MPS = 0.02
@@ -24,11 +25,16 @@ LONGEST_STEP_S = 0.1
 
 @dataclass(frozen=True, slots=True)
 class Passed:
-    """What went out to the wheels; `reason` says why it is zero although the robot should move."""
+    """What went out to the wheels; `refused` says why it is zero although the robot should move."""
 
     motion: Motion
     setpoints: Mapping[Wheel, WheelSetpoint]
-    reason: str | None = None
+    refused: Trouble | None = None
+
+    @property
+    def reason(self) -> str:
+        """Why the wheels are held, in words; empty while they are not."""
+        return str(self.refused) if self.refused else ""
 
 
 class Gate:
@@ -54,7 +60,7 @@ class Gate:
         return self._error_rad <= self._aligned_rad
 
     def pass_on(
-        self, now_s: float, motion: Motion, moving: bool, frame_age_s: float | None, report: WheelReport
+        self, now_s: float, motion: Motion, moving: bool, sight: Sight, report: WheelReport
     ) -> Passed:
         """Send to the wheels what may be sent of `motion`, and say what that was.
 
@@ -63,17 +69,17 @@ class Gate:
         dt_s = 0.0 if self._passed_s is None else min(max(now_s - self._passed_s, 0.0), LONGEST_STEP_S)
         self._passed_s = now_s
         present = {wheel: module.steering_rad for wheel, module in report.modules.items()}
-        reason = refusal(now_s, motion.twist, frame_age_s, report, self._timeouts) if moving else None
-        if reason is not None:
-            return self._halt(now_s, present, reason)
+        refused = refusal(now_s, motion.twist, sight, report, self._timeouts) if moving else None
+        if refused is not None:
+            return self._halt(now_s, present, refused)
         if not moving:
             return self._rest(now_s, dt_s, present)
         return self._drive(now_s, dt_s, motion, present, report)
 
-    def _halt(self, now_s: float, present: Mapping[Wheel, float], reason: str) -> Passed:
+    def _halt(self, now_s: float, present: Mapping[Wheel, float], refused: Trouble) -> Passed:
         """Zero at once; the modules' own ramp makes it smooth."""
         self._twist, self._error_rad = STANDSTILL, inf
-        return self._send(now_s, Motion(STANDSTILL, self._steering), self._standing(present), reason)
+        return self._send(now_s, Motion(STANDSTILL, self._steering), self._standing(present), refused)
 
     def _rest(self, now_s: float, dt_s: float, present: Mapping[Wheel, float]) -> Passed:
         """Come to rest within the limits, at once if a module is silent; then stand, wheels as they are."""
@@ -137,10 +143,10 @@ class Gate:
         now_s: float,
         motion: Motion,
         setpoints: Mapping[Wheel, WheelSetpoint],
-        reason: str | None = None,
+        refused: Trouble | None = None,
     ) -> Passed:
         self._wheels.command(now_s, setpoints)
-        return Passed(motion, setpoints, reason)
+        return Passed(motion, setpoints, refused)
 
 
 def _scaled(twist: Twist, share: float) -> Twist:

@@ -1,23 +1,29 @@
 """The loop: frame to perception to state to gate, once a tick; the only place that fires the machine."""
 
 from collections.abc import Iterable, Mapping
+from contextlib import suppress
+from dataclasses import replace
 
 from drivers.ports import Camera, Wheels
-from fieldnav.errors import DriverError, FieldnavError
+from fieldnav.errors import DriverError, FieldnavError, OutputError
+from fieldnav.faults import FaultKind, Reaction, Trouble
 from fieldnav.journal.journal import Journal
-from fieldnav.messages import CameraName, Frame, Motion, WheelReport
-from fieldnav.mission.camera_watch import CameraWatch
+from fieldnav.journal.ledger import Ledger
+from fieldnav.messages import CameraName, Frame, Motion, Twist, WheelReport
+from fieldnav.mission.bookkeeping import Bookkeeping
 from fieldnav.mission.chronicle import Chronicle
 from fieldnav.mission.eyes import Eyes
 from fieldnav.mission.gate import Gate, Passed
-from fieldnav.mission.progress import Progress
 from fieldnav.mission.tick import Observer
 from fieldnav.mission.travel import Travel
+from fieldnav.mission.watches import Watches
+from fieldnav.operator.confirmation import Confirmations
 from fieldnav.settings.robot import Robot
 from states.behaviour import Observation, Step, Task
 from states.behaviours import Behaviours
 from states.machine import Change, MissionMachine
 from states.names import Event
+from states.place import Place
 from states.table import FINISHED, LANE_LEAVES, LATCHED, RECOVERABLE
 
 TICK_S = 0.02
@@ -25,6 +31,14 @@ TICK_S = 0.02
 REST_S = 2.0
 """So long after its end a mission waits for the wheels to say that they stand; longer than any ramp."""
 NOTHING_SENT = Passed(Motion(), {})
+
+EVENTS = {
+    Reaction.PAUSE: Event.PAUSE,
+    Reaction.HOLD: Event.FAIL,
+    Reaction.STOP: Event.FAIL,
+    Reaction.LATCH: Event.LATCH,
+}
+"""What a reaction means to the machine; a fault that is held and does not pass ends as a recoverable stop."""
 
 
 class Mission:
@@ -38,34 +52,44 @@ class Mission:
         wheels: Wheels,
         journal: Journal,
         observers: Iterable[Observer] = (),
+        ledger: Ledger | None = None,
+        confirmations: Confirmations | None = None,
     ) -> None:
-        self._wheels = wheels
-        self._gate, self._travel, self._progress = Gate(wheels, robot), Travel(robot), Progress()
-        self._eyes = Eyes(cameras, robot.timeouts.frame_s)
-        self._camera_watch = CameraWatch(task, robot.camera_limits)
+        self.wheels = wheels
+        self._gate, self.travel = Gate(wheels, robot), Travel(robot)
+        self._eyes = Eyes(cameras, task.cameras, robot)
+        self._watches = Watches(robot, task)
         self.machine = MissionMachine()
         self.behaviours = Behaviours(task)
-        self._chronicle = Chronicle(journal, observers, self.behaviours, self._travel)
+        self._chronicle = Chronicle(journal, observers, self.behaviours, self.travel)
+        self.books = Bookkeeping(ledger, task, self.behaviours, self.travel)
+        self.confirmations = confirmations or Confirmations()
         self._report = WheelReport()
         self._ended_s: float | None = None
-        self._now_s = 0.0
+        self._now_s: float | None = None
 
     @property
     def over(self) -> bool:
         """Whether nothing more happens without a person: the wheels say they stand, or have had time to."""
-        if self._ended_s is None:
+        if self._ended_s is None or self._now_s is None:
             return False
-        return self._travel.standing or self._now_s - self._ended_s > REST_S
+        return self.travel.standing or self._now_s - self._ended_s > REST_S
+
+    def resume_from(self, place: Place) -> None:
+        """Take up a mission that was broken off; what is seen must fit before anything moves."""
+        self.behaviours.resume(place)
+        self.travel.forward_m, self.travel.sideways_m = place.forward_m, place.sideways_m
+        self.books.newest = place
 
     def start(self, now_s: float) -> None:
         """Bring the wheels up and begin with the checks."""
         try:
-            self._wheels.start(now_s)
+            self.wheels.start(now_s)
         except DriverError as error:
-            self._go(now_s, Step(event=Event.START))
-            self.break_off(now_s, Event.LATCH, str(error))
+            self.go(now_s, Step(event=Event.START))
+            self.react(now_s, Trouble(error.fault, str(error)))
             return
-        change = self._go(now_s, Step(event=Event.START))
+        change = self.go(now_s, Step(event=Event.START))
         self._chronicle.tell(now_s, self.machine.leaf, change, Step(), NOTHING_SENT)
 
     def tick(self, now_s: float) -> None:
@@ -73,73 +97,105 @@ class Mission:
 
         Raises FieldnavError for what is not the robot's fault: a full disk, an error in the program.
         """
-        self._now_s = now_s
+        before_s, self._now_s = self._now_s, now_s
         try:
+            late = self._watches.lateness(before_s, now_s)
+            if late is not None and self.machine.leaf in LANE_LEAVES:
+                self.react(now_s, late)
             self._round(now_s)
         except DriverError as error:
-            self.break_off(now_s, Event.LATCH, str(error))
+            self.react(now_s, Trouble(error.fault, str(error)))
         except FieldnavError as error:
-            self.break_off(now_s, Event.LATCH, str(error))
+            fault = FaultKind.DISK_FULL if isinstance(error, OutputError) else FaultKind.PROGRAM
+            self.react(now_s, Trouble(fault, str(error)))
             raise
         except Exception as error:
             reason = f"{type(error).__name__}: {error}"
-            self.break_off(now_s, Event.LATCH, reason)
+            self.react(now_s, Trouble(FaultKind.PROGRAM, reason))
             raise FieldnavError(f"the mission broke off: {reason}") from error
 
+    def react(self, now_s: float, trouble: Trouble) -> None:
+        """Do what the table of faults declares."""
+        if trouble.fault is FaultKind.DRIVE_RUNAWAY:  # zero alone is what that wheel does not obey
+            with suppress(DriverError):
+                self.wheels.emergency_stop(now_s)
+        self.break_off(now_s, EVENTS[trouble.reaction], str(trouble))
+
     def break_off(self, now_s: float, event: Event, reason: str) -> None:
-        """Stop the wheels, then go to a fault state and say why."""
-        self._wheels.stop(now_s)
+        """Stop the wheels, then go to a state that stands and say why."""
+        self.wheels.stop(now_s)
         self._report = WheelReport()  # what the wheels do is no longer known
-        self._travel.measure(now_s, self._report)
+        self.travel.measure(now_s, self._report)
         step = Step(event=event, reason=reason)
-        change = self._go(now_s, step) if self.machine.may(event) else None
+        change = self.go(now_s, step) if self.machine.may(event) else None
         self._chronicle.tell(now_s, self.machine.leaf, change, step, NOTHING_SENT)
 
+    def go(self, now_s: float, step: Step) -> Change:
+        """Fire, write it down, take up the new state: the journal is on the disk before the wheels obey."""
+        assert step.event is not None, "only an event changes the state"
+        self.machine.expected = self.behaviours.lane.resumes
+        change = self.machine.fire(step.event)
+        self._chronicle.changed(now_s, change, step)
+        self.behaviours.enter(change)
+        self.books.book(now_s, change.target)
+        ended = change.target in (FINISHED, RECOVERABLE, LATCHED)
+        self._ended_s = now_s if ended else None
+        return change
+
     def _round(self, now_s: float) -> None:
-        self._report = self._wheels.poll(now_s)
-        self._travel.measure(now_s, self._report)
+        self._report = self.wheels.poll(now_s)
+        self.travel.measure(now_s, self._report)
+        disobedient = self._watches.wheels(now_s, self._report, self.wheels.taken_over)
+        if disobedient is not None:
+            self.react(now_s, disobedient)
+            return
         guides = self.behaviours.current.cameras
-        frames = self._eyes.look(now_s, guides)
-        step = self.behaviours.current.step(self._observe(now_s, frames))
-        warning = self._note_knocked(now_s, step)
-        change = self._go(now_s, step) if step.event is not None else None
+        frames = self._eyes.look(now_s, guides, self.travel.pose_at)
+        step = self._asked(self.behaviours.current.step(self._observe(now_s, frames)))
+        warning = self._noted(now_s, step, guides)
+        change = self.go(now_s, step) if step.event is not None else None
         moving = self.machine.leaf in LANE_LEAVES
-        motion = step.motion if moving else Motion()
-        passed = self._gate.pass_on(now_s, motion, moving, self._eyes.age_s(now_s, guides), self._report)
+        self.books.travelled(now_s, self.machine.leaf)
+        motion = self._slowed(step.motion, guides) if moving else Motion()
+        passed = self._gate.pass_on(now_s, motion, moving, self._eyes.sight(now_s, guides), self._report)
+        self._watches.sent(now_s, passed)
         self._chronicle.held(now_s, self.machine.leaf, passed)
-        complaint = self._progress.complaint(now_s, passed, self._travel.standing)
-        if complaint and change is None and moving:
-            change = self._go(now_s, Step(event=Event.FAIL, reason=complaint))
+        trouble = self._watches.progress(now_s, passed, self._report, self.travel.standing)
+        if trouble and change is None and moving:
+            change = self.go(now_s, Step(event=EVENTS[trouble.reaction], reason=str(trouble)))
         self._chronicle.tell(now_s, self.machine.leaf, change, step, passed, warning)
 
     def _observe(self, now_s: float, frames: Mapping[CameraName, Frame]) -> Observation:
         return Observation(
             now_s=now_s,
             frames=frames,
-            forward_m=self._travel.forward_m,
-            sideways_m=self._travel.sideways_m,
-            stopped=self._travel.standing,
+            forward_m=self.travel.forward_m,
+            sideways_m=self.travel.sideways_m,
+            stopped=self.travel.standing,
             wheels_aligned=self._gate.aligned,
-            wheels_ready=self._wheels.ready,
-            pose=self._travel.pose,
-            exposed={name: self._travel.pose_at(frame.stamp_s) for name, frame in frames.items()},
+            wheels_ready=self.wheels.ready,
+            pose=self.travel.pose,
+            exposed={name: self.travel.pose_at(frame.stamp_s) for name, frame in frames.items()},
         )
 
-    def _go(self, now_s: float, step: Step) -> Change:
-        """Fire, write it down, take up the new state: the journal is on the disk before the wheels obey."""
-        assert step.event is not None, "only an event changes the state"
-        change = self.machine.fire(step.event)
-        self._chronicle.changed(now_s, change, step)
-        self.behaviours.enter(change)
-        ended = change.target in (FINISHED, RECOVERABLE, LATCHED)
-        self._ended_s = now_s if ended else None
-        return change
+    def _asked(self, step: Step) -> Step:
+        """The step; a pause with a question instead where a person must say yes first."""
+        if step.event is None or not self.confirmations.asks(step.event):
+            return step
+        return replace(step, event=Event.PAUSE, reason=self.confirmations.question)
 
-    def _note_knocked(self, now_s: float, step: Step) -> str:
-        """Write down, once a camera, that the rows show it knocked away; the state stays as it is."""
+    def _slowed(self, motion: Motion, guides: tuple[CameraName, ...]) -> Motion:
+        """As fast as the slowest of the cameras that guide lets one see."""
+        share, _ = self._eyes.slowness(guides)
+        twist = motion.twist
+        slower = Twist(twist.vx_mps * share, twist.vy_mps * share, twist.yaw_rate_rps * share)
+        return motion if share >= 1 else replace(motion, twist=slower)
+
+    def _noted(self, now_s: float, step: Step, guides: tuple[CameraName, ...]) -> str:
+        """Write down, once each, what a person should know and what changes no state."""
         leaf = self.machine.leaf
-        found = self._camera_watch.complaint(leaf, step, self._travel.forward_m)
-        if found is None:
-            return ""
-        self._chronicle.noted(now_s, "camera knocked", leaf, found)
-        return found.reason
+        warnings = []
+        for event, found in self._watches.notes(leaf, step, self.travel.forward_m, self._eyes, guides):
+            self._chronicle.noted(now_s, event, leaf, found)
+            warnings.append(found.reason)
+        return "; ".join(warnings)

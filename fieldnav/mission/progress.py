@@ -1,8 +1,10 @@
-"""Whether the wheels do what was asked of them, over time rather than in one tick."""
+"""Whether the robot gets on: what it was asked to do, over time rather than in one tick."""
 
 from math import hypot
 
+from fieldnav.faults import FaultKind, Trouble
 from fieldnav.mission.gate import Passed
+from fieldnav.mission.wheel_watch import since
 
 REFUSED_LIMIT_S = 2.0
 """The gate may refuse to move for so long before it counts as a fault. Our choice."""
@@ -19,21 +21,18 @@ class Progress:
         self._refused_since_s: float | None = None
         self._stuck_since_s: float | None = None
 
-    def complaint(self, now_s: float, passed: Passed, standing: bool) -> str:
-        """Why the mission does not get on, in words; empty while it does."""
-        self._refused_since_s = _since(self._refused_since_s, now_s, passed.reason is not None)
+    def trouble(self, now_s: float, passed: Passed, standing: bool) -> Trouble | None:
+        """Why the mission does not get on."""
+        self._refused_since_s = since(self._refused_since_s, now_s, passed.refused is not None)
         twist = passed.motion.twist
         asked = not passed.motion.hold and hypot(twist.vx_mps, twist.vy_mps) > MOVING_MPS
-        self._stuck_since_s = _since(self._stuck_since_s, now_s, asked and standing)
-        if self._refused_since_s is not None and now_s - self._refused_since_s > REFUSED_LIMIT_S:
-            return f"the gate does not let the wheels move: {passed.reason}"
+        self._stuck_since_s = since(self._stuck_since_s, now_s, asked and standing)
+        if passed.refused and self._refused_since_s is not None:
+            held_s = now_s - self._refused_since_s
+            if held_s > REFUSED_LIMIT_S:
+                said = f"{passed.refused.said}; the wheels were held for {held_s:.1f} s"
+                return Trouble(passed.refused.fault, said)
         if self._stuck_since_s is not None and now_s - self._stuck_since_s > STUCK_LIMIT_S:
-            return f"the wheels were told to move for {STUCK_LIMIT_S:.0f} s and stand still"
-        return ""
-
-
-def _since(since_s: float | None, now_s: float, holds: bool) -> float | None:
-    """Since when a condition has held without a break."""
-    if not holds:
+            said = f"the wheels were told to move for {STUCK_LIMIT_S:.0f} s and stand still"
+            return Trouble(FaultKind.STANDS_STILL, said)
         return None
-    return now_s if since_s is None else since_s

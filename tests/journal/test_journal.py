@@ -128,10 +128,10 @@ def test_a_full_disk_is_one_line_and_leaves_only_whole_lines(tmp_path: Path) -> 
         "import resource, sys; from datetime import *; from pathlib import Path\n"
         "from fieldnav.errors import OutputError\n"
         "from fieldnav.journal.journal import Journal; from fieldnav.journal.entry import Entry\n"
-        "resource.setrlimit(resource.RLIMIT_FSIZE, (1000, 1000))\n"
+        "resource.setrlimit(resource.RLIMIT_FSIZE, (70000, 70000))\n"
         "with Journal(Path(sys.argv[1]), datetime(2026, 5, 1, tzinfo=UTC)) as journal:\n"
         "    try:\n"
-        "        for number in range(50): journal.record(Entry(number, 'e', 's', 't'))\n"
+        "        for number in range(1000): journal.record(Entry(number, 'e', 's', 't'))\n"
         "    except OutputError as error: print(error)\n"
     )
 
@@ -148,7 +148,7 @@ def test_a_full_disk_is_one_line_and_leaves_only_whole_lines(tmp_path: Path) -> 
     )
     content = (tmp_path / "journal.jsonl").read_bytes()
     assert content.endswith(b"\n")
-    assert len(content) < 1000
+    assert len(content) < 70000
     assert len(read(tmp_path / "journal.jsonl")) > 1
 
 
@@ -157,3 +157,18 @@ def test_any_number_at_all_becomes_json(value: float) -> None:
     entry = Entry(1.0, "e", "s", "t", evidence=(Evidence("x", value, value, "m"),))
 
     json.dumps(line_of(entry, 0, START), allow_nan=False)
+
+
+def test_a_stray_carriage_return_hides_none_of_the_lines_after_it(tmp_path: Path) -> None:
+    path = tmp_path / "journal.jsonl"
+    with Journal(path, START) as journal:
+        for _ in range(3):
+            journal.record(ENTRY)
+    first, second, third, _ = path.read_bytes().split(b"\n")
+
+    path.write_bytes(b"\n".join([first, b"\r" + second + b"\r", third, b""]))
+    assert [line.seq for line in read(path)] == [0, 1, 2]
+
+    path.write_bytes(b"\n".join([first, second[:40] + b"\r" + b"x" + second[40:], third, b""]))
+    with pytest.raises(FieldnavError, match="line 2 is not a line"):
+        read(path)

@@ -15,6 +15,7 @@ from states.table import (
     LEAVES,
     PAUSED,
     RECOVERABLE,
+    RESUMING,
     TRANSITIONS,
 )
 
@@ -30,6 +31,8 @@ TO_NEXT_LANE = (
     Event.LANE_VERIFIED,
     Event.LANE_CENTRED,
 )
+EXPECTED = (Direction.BACKWARD, Phase.EXIT)
+"""Where a mission that was broken off is to go on."""
 STARTED = (Event.START, Event.READY)
 
 
@@ -124,7 +127,18 @@ def test_the_machine_does_what_the_table_says_and_refuses_the_rest(leaf: Path, e
         with pytest.raises(MachineError):
             machine.fire(event)
         return
+    machine.expected = EXPECTED
     change = machine.fire(event)
     assert (change.source, change.event) == (leaf, event)
     # The shortest way into a pause or a fault interrupts the check.
-    assert change.target == machine.leaf == (rows[0].target or CHECKING)
+    onward = EXPECTED if event is Event.PLACE_FITS else CHECKING
+    assert change.target == machine.leaf == (rows[0].target or onward)
+
+
+def test_a_place_that_fits_leads_nowhere_before_one_is_expected() -> None:
+    machine = at(RESUMING)
+
+    with pytest.raises(MachineError, match="where to go on"):
+        machine.fire(Event.PLACE_FITS)
+
+    assert machine.leaf == RESUMING

@@ -16,6 +16,7 @@ from states.table import (
     LEAVES,
     PAUSED,
     RECOVERABLE,
+    RESUMING,
     TRANSITIONS,
 )
 
@@ -99,5 +100,5 @@ def test_no_name_holds_what_separates_nested_names(names: type[Enum]) -> None:
 
 
 def test_what_may_be_resumed_are_the_check_and_the_moving_states() -> None:
-    assert set(RESUMABLE) == {CHECKING, *LANE_LEAVES}
+    assert set(RESUMABLE) == {CHECKING, RESUMING, *LANE_LEAVES}
     assert MissionMachine().leaf == IDLE

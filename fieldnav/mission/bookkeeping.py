@@ -1,0 +1,98 @@
+"""When the ledger is written, and what a line of it means to the states."""
+
+from math import hypot
+
+from fieldnav.errors import FieldnavError
+from fieldnav.journal.ledger import Booking, Ledger
+from fieldnav.mission.travel import Travel
+from states.behaviour import Task
+from states.behaviours import Behaviours
+from states.names import Path, Phase, text
+from states.place import Place
+from states.table import FINISHED, LANE_LEAVES
+
+ALONG_M, ASIDE_M = 0.25, 0.04
+"""Travel after which the place is written down again: sideways rows lie a few decimetres apart."""
+
+LEAF_NAMED = {text(leaf): leaf for leaf in LANE_LEAVES}
+
+
+class Bookkeeping:
+    """Writes down where the mission stands; without a ledger it keeps no books."""
+
+    def __init__(self, ledger: Ledger | None, task: Task, behaviours: Behaviours, travel: Travel) -> None:
+        self._ledger, self._task = ledger, task
+        self._behaviours, self._travel = behaviours, travel
+        self._booked_m = (0.0, 0.0)
+        self.newest: Place | None = None
+
+    def travelled(self, now_s: float, leaf: Path) -> None:
+        """Book the place if the robot has come far enough since the last line. Raises OutputError."""
+        ahead_m, aside_m = self._booked_m
+        along_m, sideways_m = self._travel.forward_m - ahead_m, self._travel.sideways_m - aside_m
+        if hypot(along_m / ALONG_M, sideways_m / ASIDE_M) >= 1:
+            self.book(now_s, leaf)
+
+    def book(self, now_s: float, leaf: Path) -> None:
+        """Book the place, in a lane or between two, or that all is done. Raises OutputError."""
+        if leaf in LANE_LEAVES:
+            self.newest = self._place(leaf)
+        elif leaf != FINISHED or self.newest is None:
+            return
+        self._booked_m = (self._travel.forward_m, self._travel.sideways_m)
+        if self._ledger is not None:
+            self._ledger.book(self._booking(now_s, self.newest, leaf == FINISHED))
+
+    def _place(self, leaf: Path) -> Place:
+        lane, switch = self._behaviours.lane, self._behaviours.lane.switch
+        return Place(
+            leaf=leaf,
+            lane=lane.number,
+            done=self._behaviours.done,
+            rows=lane.rows,
+            forward_m=self._travel.forward_m,
+            sideways_m=self._travel.sideways_m,
+            lane_from_m=lane.first_crop_m,
+            lane_length_m=lane.length_m,
+            expected_m=lane.expected_m,
+            pitches_m=lane.pitches_m,
+            sidestep_from_m=switch.started_m if switch and Phase.SIDESTEP in leaf else None,
+        )
+
+    def _booking(self, now_s: float, place: Place, finished: bool) -> Booking:
+        return Booking(
+            stamp_s=now_s,
+            state=text(place.leaf),
+            side=self._task.side.value,
+            lanes=self._task.lanes,
+            lane=place.lane,
+            done=self._behaviours.done,
+            rows=place.rows,
+            forward_m=place.forward_m,
+            sideways_m=place.sideways_m,
+            lane_from_m=place.lane_from_m,
+            lane_length_m=place.lane_length_m,
+            expected_m=place.expected_m,
+            pitches_m=place.pitches_m,
+            sidestep_from_m=place.sidestep_from_m,
+            finished=finished,
+        )
+
+
+def place_of(booking: Booking) -> Place:
+    """The place that a line of the ledger means. Raises FieldnavError for a state that there is not."""
+    if booking.state not in LEAF_NAMED:
+        raise FieldnavError(f"ledger: state '{booking.state}' is none of a lane's")
+    return Place(
+        leaf=LEAF_NAMED[booking.state],
+        lane=booking.lane,
+        done=booking.done,
+        rows=booking.rows,
+        forward_m=booking.forward_m,
+        sideways_m=booking.sideways_m,
+        lane_from_m=booking.lane_from_m,
+        lane_length_m=booking.lane_length_m,
+        expected_m=booking.expected_m,
+        pitches_m=booking.pitches_m,
+        sidestep_from_m=booking.sidestep_from_m,
+    )

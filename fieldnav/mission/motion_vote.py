@@ -1,0 +1,64 @@
+"""A vote over frames: does the ground move through a camera's pictures as the wheels say?"""
+
+from dataclasses import dataclass
+from math import hypot
+
+from fieldnav.messages import Floats, Frame
+from fieldnav.odometry import Pose
+from fieldnav.perception.seen_motion import agreement, expected_px, patch
+from fieldnav.perception.sidestep.wheel_motion import travelled
+from fieldnav.pinhole import Pinhole
+
+LEAST_M, MOST_M = 0.02, 0.12
+"""Of driving from one picture to the other: less is lost in shaking, more has left the patch."""
+CLEAR = 0.5
+"""Of the expected motion, seen along it: at least this is a vote."""
+AGAINST = 4
+"""Votes against more than for it that are believed."""
+TRUSTED = 4
+"""Votes for it that count at most, and from which on a look is taken only now and then."""
+NOW_AND_THEN_M = 0.5
+
+
+@dataclass(frozen=True, slots=True)
+class _Before:
+    patch: Floats
+    pose: Pose
+
+
+class MotionVote:
+    """Compares a frame with an earlier one; looks closely until it trusts the camera, then less often."""
+
+    def __init__(self, camera: Pinhole) -> None:
+        self._camera = camera
+        self._before: _Before | None = None
+        self._votes = 0
+        self._compared_at = Pose()
+
+    def against(self, frame: Frame, pose: Pose) -> bool:
+        """Whether it has become certain that the ground moves the other way."""
+        resting = self._votes >= TRUSTED and _distance_m(self._compared_at, pose) < NOW_AND_THEN_M
+        if resting:
+            return False
+        if self._before is None or _distance_m(self._before.pose, pose) > MOST_M:
+            self._before = _Before(patch(frame.image), pose)
+            return False
+        if _distance_m(self._before.pose, pose) < LEAST_M:
+            return False
+        self._count(frame, self._before, pose)
+        return self._votes <= -AGAINST
+
+    def _count(self, frame: Frame, before: _Before, pose: Pose) -> None:
+        now = _Before(patch(frame.image), pose)
+        moved = travelled(before.pose, pose, frame.camera)
+        seen = agreement(before.patch, now.patch, expected_px(self._camera, moved))
+        if seen >= CLEAR:
+            self._votes = min(self._votes + 1, TRUSTED)
+        elif seen <= -CLEAR:
+            self._votes = min(self._votes, 0) - 1  # long trust must not hide what has just happened
+        self._before = None if self._votes >= TRUSTED else now
+        self._compared_at = pose
+
+
+def _distance_m(one: Pose, other: Pose) -> float:
+    return hypot(one.x_m - other.x_m, one.y_m - other.y_m)

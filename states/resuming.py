@@ -1,0 +1,108 @@
+"""Resuming: at standstill, look whether what is seen fits the ledger, before a broken-off mission goes on."""
+
+from dataclasses import dataclass
+
+from fieldnav.estimation.lane_end import LaneEnd
+from fieldnav.messages import CameraName, Evidence, Frame
+from fieldnav.perception.lane import LaneFit
+from fieldnav.perception.perceive import find
+from states.acquiring import CREEP_LIMIT_M
+from states.agreement import Agreement
+from states.behaviour import Observation, Sight, Step, Task
+from states.guides import guide_for
+from states.lane_watch import driven_m
+from states.memory import LaneMemory
+from states.names import Event, Follow, Phase
+from states.place import Resumption
+
+AGREEING_FRAMES = 4
+OTHER_WAY_S = 2.0
+"""So long the camera that should see the lane is waited for before the other one's word is taken."""
+LONGEST_S = 6.0
+"""What was not seen at standstill by then will not be."""
+WIDEST_M, STEEPEST = 0.25, 0.27
+"""Offset and slope of the lane that following gets over: 15 degrees. Further off somebody moved the robot."""
+
+
+@dataclass(slots=True)
+class _Look:
+    """What one camera shows of the lane."""
+
+    agreement: Agreement
+    lane: LaneFit | None = None
+    agreed: bool = False
+
+    def fits(self, rows: int) -> bool:
+        """Whether half of the rows are there, and the lane lies where following gets over it."""
+        lane = self.lane
+        if not self.agreed or lane is None or 2 * lane.rows_seen < rows:
+            return False
+        return abs(lane.offset_m) <= WIDEST_M and abs(lane.slope) <= STEEPEST
+
+
+class ResumingLane:
+    """In a lane: ahead or, near its end, behind, its rows must be where the robot can follow them."""
+
+    def __init__(self, task: Task, resumption: Resumption, lane: LaneMemory) -> None:
+        self._task, self._direction, self._lane = task, resumption.direction, lane
+        ahead, behind = self._direction.leading, self._direction.trailing
+        self.cameras: tuple[CameraName, ...] = (ahead, behind)
+        self._first = behind if Phase.EXIT in resumption.leaf else ahead
+        self._looks = {name: _Look(Agreement(AGREEING_FRAMES)) for name in self.cameras}
+        self._entered_s: float | None = None
+        self._step = Step()
+
+    def step(self, seen: Observation) -> Step:
+        self._entered_s = seen.now_s if self._entered_s is None else self._entered_s
+        looked_s = seen.now_s - self._entered_s
+        for frame in seen.frames.values():
+            self._step = self._look(frame, seen, looked_s)
+            if self._step.event is not None:
+                return self._step
+        if looked_s > LONGEST_S:
+            return Step(Step().motion, Event.FAIL, self._step.evidence, None, self._misfit())
+        return self._step if seen.frames else self._step.continued()
+
+    def _look(self, frame: Frame, seen: Observation, looked_s: float) -> Step:
+        crop, look = self._task.crop, self._looks[frame.camera]
+        found = find(frame.image, crop, self._task.cameras[frame.camera])
+        look.lane, look.agreed = found.lane, look.agreement.add(found.lane)
+        lane = found.lane
+        evidence = (
+            Evidence("rows of the lane in view", lane.rows_seen if lane else 0, crop.rows.per_lane, "rows"),
+            Evidence("offset of the lane", lane.offset_m if lane else float("nan"), WIDEST_M, "m"),
+            Evidence("slope of the lane", lane.slope if lane else float("nan"), STEEPEST),
+            *look.agreement.evidence(),
+            Evidence("looked", looked_s, LONGEST_S, "s"),
+        )
+        sight = Sight(frame, lane.rows if lane else found.lines, found.centres)
+        in_turn = frame.camera is self._first or looked_s > OTHER_WAY_S
+        if lane is None or not in_turn or not look.fits(crop.rows.per_lane):
+            return Step(evidence=evidence, sight=sight)
+        reason = self._go_on(lane, frame, seen)
+        return Step(event=Event.PLACE_FITS, evidence=evidence, sight=sight, reason=reason)
+
+    def _go_on(self, lane: LaneFit, frame: Frame, seen: Observation) -> str:
+        """Follow what is seen ahead; leave the lane by what is seen behind."""
+        if frame.camera is self._direction.leading:
+            self._lane.resumes = (self._direction, Phase.FOLLOW, Follow.ACQUIRING)
+            return "the lane is seen ahead"
+        begin_m = driven_m(seen, self._direction) - CREEP_LIMIT_M
+        begin_m -= self._task.cameras[frame.camera].view_m[1]  # the trailing camera looks back
+        end = LaneEnd(self._task.crop, begin_m, self._lane.expected_m, self._lane.from_m)
+        self._lane.enter(guide_for(self._task, self._direction), end)
+        self._lane.guide.begin(lane, frame, seen.exposed_at(frame))
+        self._lane.counts[lane.rows_seen] += 1
+        self._lane.resumes = (self._direction, Phase.EXIT)
+        return "the lane is seen behind"
+
+    def _misfit(self) -> str:
+        lanes = [f"{name.value} camera: {_words(look.lane)}" for name, look in self._looks.items()]
+        wanted = f"{self._task.crop.rows.per_lane} rows within {WIDEST_M:g} m of the robot's middle"
+        return f"what is seen does not fit lane {self._lane.number}: {'; '.join(lanes)}; wanted {wanted}"
+
+
+def _words(lane: LaneFit | None) -> str:
+    if lane is None:
+        return "no lane"
+    return f"{lane.rows_seen} rows, {abs(lane.offset_m):.2f} m off, slope {lane.slope:.2f}"

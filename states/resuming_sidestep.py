@@ -1,0 +1,84 @@
+"""Resuming between two lanes: the old lane's rows must stand where the wheels' travel says."""
+
+from dataclasses import replace
+
+from fieldnav.messages import CameraName, Evidence, Frame
+from fieldnav.perception.canopy import canopy_plane
+from fieldnav.perception.lane import comb_m
+from fieldnav.perception.sidestep.meeting import all_known
+from fieldnav.perception.sidestep.passing_rows import Crossing, begin
+from fieldnav.perception.sidestep.row_lines import row_in_view
+from fieldnav.perception.sidestep.row_words import LEAST_SHOWN
+from states.behaviour import Observation, Step, Task
+from states.memory import LaneMemory, SwitchMemory
+from states.names import Event, Phase, Sidestep
+from states.passing import look
+from states.place import Resumption
+
+FRAMES_FITTING = 6
+LONGEST_S = 6.0
+HEADING_SD = 0.05
+"""Slope of the rows against a robot that was stopped in the middle of a sidestep."""
+PLACE_SD_M = 0.08
+"""How far the wheels may have run on after the ledger's last word, and what they slip. Our choice."""
+
+
+class ResumingSidestep:
+    """Draws the old lane's rows from the ledger and looks whether plants stand in them."""
+
+    def __init__(self, task: Task, resumption: Resumption, lane: LaneMemory) -> None:
+        self.cameras: tuple[CameraName, ...] = (resumption.direction.trailing,)
+        self._task, self._lane, self._resumption = task, lane, resumption
+        self._entered_s: float | None = None
+        self._fitting = 0
+        self._step = Step()
+
+    def step(self, seen: Observation) -> Step:
+        if self._entered_s is None:
+            self._entered_s = seen.now_s
+        looked_s = seen.now_s - self._entered_s
+        if looked_s > LONGEST_S:
+            reason = (
+                f"what is seen does not fit a sidestep of {abs(self._resumption.moved_m):.2f} m from lane "
+                f"{self._lane.number}: no row stands where its rows must be"
+            )
+            return Step(event=Event.FAIL, evidence=self._step.evidence, reason=reason)
+        for frame in seen.frames.values():
+            self._step = self._look(frame, seen, looked_s)
+            return self._step
+        return self._step.continued()
+
+    def _look(self, frame: Frame, seen: Observation, looked_s: float) -> Step:
+        crop, camera = self._task.crop, self._task.cameras[frame.camera]
+        if self._lane.switch is None:
+            started_m = seen.sideways_m - self._resumption.moved_m
+            self._lane.switch = SwitchMemory(started_m, seen.forward_m, crossing=self._drawn(frame))
+        rows, sight = look(self._task, self._lane.switch, frame, seen)
+        old = [row for row in rows.rows if row.of_old_lane and row_in_view(rows, row.across_m, crop, camera)]
+        shown = max((row.shown for row in old), default=0.0)
+        met = bool(rows.new) and not old
+        self._fitting += shown > LEAST_SHOWN or met
+        in_place = rows.rows[rows.outermost_old].shown > LEAST_SHOWN
+        evidence = (
+            Evidence("moved sideways by the ledger", self._resumption.moved_m, None, "m"),
+            Evidence("what a row of the old lane shows", shown, LEAST_SHOWN),
+            Evidence("frames that fit", self._fitting, FRAMES_FITTING, "frames"),
+            Evidence("looked", looked_s, LONGEST_S, "s"),
+        )
+        if self._fitting < FRAMES_FITTING:
+            return Step(evidence=evidence, sight=sight)
+        self._lane.switch.crossing = all_known(rows)
+        at = Sidestep.CROSSING if in_place else Sidestep.RETURNING
+        self._lane.resumes = (self._resumption.direction, Phase.SIDESTEP, at)
+        return Step(event=Event.PLACE_FITS, evidence=evidence, sight=sight)
+
+    def _drawn(self, frame: Frame) -> Crossing:
+        """The old lane's rows, as far behind as the robot has moved to the next lane's side."""
+        crop, camera = self._task.crop, self._task.cameras[frame.camera]
+        plane, outward = canopy_plane(camera, crop), self._task.outward(frame.camera)
+        moved_m = self._task.side.sign * self._resumption.moved_m
+        lines = [plane.row_in_image(float(y) - outward * moved_m, 0.0) for y in comb_m(crop)]
+        crossing = begin(lines, HEADING_SD, outward, crop, camera)
+        covariance = crossing.covariance.copy()
+        covariance[: len(lines), : len(lines)] += PLACE_SD_M**2  # what is off is off for all of them
+        return replace(crossing, covariance=covariance)
