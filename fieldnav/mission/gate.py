@@ -76,6 +76,10 @@ class Gate:
             return self._rest(now_s, dt_s, present)
         return self._drive(now_s, dt_s, motion, present, report)
 
+    def halted(self) -> None:
+        """The wheels have been told to stop without the gate: what follows begins from standstill."""
+        self._twist, self._error_rad = STANDSTILL, inf
+
     def _halt(self, now_s: float, present: Mapping[Wheel, float], refused: Trouble) -> Passed:
         """Zero at once; the modules' own ramp makes it smooth."""
         self._twist, self._error_rad = STANDSTILL, inf

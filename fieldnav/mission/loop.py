@@ -124,6 +124,7 @@ class Mission:
     def break_off(self, now_s: float, event: Event, reason: str) -> None:
         """Stop the wheels, then go to a state that stands and say why."""
         self.wheels.stop(now_s)
+        self._gate.halted()
         self._report = WheelReport()  # what the wheels do is no longer known
         self.travel.measure(now_s, self._report)
         step = Step(event=event, reason=reason)
