@@ -4,13 +4,13 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from fieldnav.cli.findings import Finding, Verdict
 from fieldnav.messages import Frame, Image
 from fieldnav.perception.perceive import find
 from fieldnav.perception.plants import find_plants
 from fieldnav.perception.pose.camera_pose import PoseSighting, sight
 from fieldnav.perception.pose.pose_estimate import CERTAIN, Departure, PoseEstimate
 from fieldnav.pinhole import Pinhole
+from fieldnav.preflight.finding import Finding, Verdict
 from fieldnav.settings.camera import CameraLimits
 from fieldnav.settings.crop import CropProfile
 

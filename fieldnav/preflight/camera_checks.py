@@ -1,22 +1,17 @@
-"""The checks of the cameras that need no crop: they open, give frames, and the frames show something."""
+"""The checks of the cameras that need no crop: they give frames in time, and the frames show something."""
 
-from collections.abc import Callable, Iterator, Mapping
-from dataclasses import dataclass
+from collections.abc import Iterator, Mapping
 from pathlib import Path
 
-from drivers.opencv_camera import open_camera
-from drivers.ports import Camera
 from drivers.recorded_camera import PICTURES
-from fieldnav.cli.findings import Finding, Verdict
-from fieldnav.errors import DriverError
 from fieldnav.messages import CameraName, Frame
 from fieldnav.perception.pose.picture_quality import difference, quality, same
+from fieldnav.preflight.finding import Finding, Verdict
+from fieldnav.preflight.sampling import PATIENCE_S, Taken
 from fieldnav.settings.camera import CameraSettings
 
-FRAMES = 8
-PATIENCE_S = 3.0
-"""A webcam gives its first frame after up to two seconds."""
-POLL_S = 0.005
+LEAST_GAP_S = 0.005
+"""No camera is faster than 200 frames a second; frames that came at once have no rate."""
 SLOW = 0.8  # of the robot file's rate
 BLACK, WHITE = 10.0, 245.0  # grey levels; a field by night is darker, a sensor in the sun brighter
 LEAST_CONTRAST = 4.0  # grey levels; soil without a plant has 10 or more
@@ -24,55 +19,22 @@ LEAST_SHARPNESS = 50.0  # fields in focus have 190 or more, blurred by two pixel
 ALIKE = 3.0  # grey levels; two views of one scene differ by less, ends of a robot by 10 or more
 
 
-@dataclass(frozen=True, slots=True)
-class Watch:
-    """How time goes by: the clock of the frames' stamps, and waiting."""
-
-    clock: Callable[[], float]
-    wait: Callable[[float], None]
-
-
-def look(name: CameraName, settings: CameraSettings, watch: Watch) -> tuple[list[Finding], Frame | None]:
-    """Open a camera, watch it for some frames and close it; its findings and its last frame."""
-    opens, frames = f"{name.value} camera opens", f"{name.value} camera frames"
-    try:
-        camera = open_camera(name, settings, watch.clock)
-    except DriverError as error:
-        said = str(error).removeprefix(f"{name.value} camera: ")
-        advice = f"see to its cable, or to cameras.{name.value}.source"
-        return [Finding(opens, Verdict.FAIL, said, advice)], None
-    findings = [Finding(opens, Verdict.OK, settings.source)]
-    try:
-        taken = _sample(camera, watch)
-    except DriverError as error:
-        said = str(error).removeprefix(f"{name.value} camera: ")
-        return [*findings, Finding(frames, Verdict.FAIL, said)], None
-    finally:
-        camera.close()
-    findings.append(_arrival(frames, taken, settings))
-    if not taken:
-        return findings, None
-    return [*findings, *_pictures(name, taken, settings)], taken[-1]
-
-
-def _sample(camera: Camera, watch: Watch) -> list[Frame]:
-    """Frames as they come, until there are enough or patience is at its end."""
-    frames: list[Frame] = []
-    until_s = watch.clock() + PATIENCE_S
-    while len(frames) < FRAMES and watch.clock() < until_s:
-        frame = camera.latest(watch.clock())
-        if frame is None or (frames and frame is frames[-1]):
-            watch.wait(POLL_S)
-        else:
-            frames.append(frame)
-    return frames
+def camera_findings(name: CameraName, taken: Taken, settings: CameraSettings) -> Iterator[Finding]:
+    """How a camera's frames came, and what they look like."""
+    check = f"{name.value} camera frames"
+    if taken.failure:
+        yield Finding(check, Verdict.FAIL, taken.failure)
+        return
+    yield _arrival(check, taken.frames, settings)
+    if taken.frames:
+        yield from _pictures(name, taken.frames, settings)
 
 
 def _arrival(check: str, frames: list[Frame], settings: CameraSettings) -> Finding:
     if len(frames) < 2:  # noqa: PLR2004 - one frame has no rate
         return Finding(check, Verdict.FAIL, f"{len(frames)} within {PATIENCE_S:g} s", "replug it")
     first, last = frames[0], frames[-1]
-    rate_hz = (last.sequence - first.sequence) / max(last.stamp_s - first.stamp_s, POLL_S)
+    rate_hz = (last.sequence - first.sequence) / max(last.stamp_s - first.stamp_s, LEAST_GAP_S)
     figure = f"{settings.width_px}x{settings.height_px} px, {rate_hz:.1f} a second"
     if rate_hz < SLOW * settings.rate_hz:
         advice = f"rate_hz says {settings.rate_hz:g}: more light, or a faster port"
@@ -108,7 +70,7 @@ def _liveliness(check: str, frames: list[Frame], settings: CameraSettings) -> Fi
     return Finding(check, Verdict.FAIL, f"frozen: {len(frames)} frames are one picture", "replug it")
 
 
-def compare(sources: Mapping[CameraName, CameraSettings], frames: Mapping[CameraName, Frame]) -> Finding:
+def two_cameras(sources: Mapping[CameraName, CameraSettings], frames: Mapping[CameraName, Frame]) -> Finding:
     """Whether the two cameras are two, and not one that the file names twice."""
     check = "two cameras"
     front, rear = (sources[name].source for name in CameraName)

@@ -1,0 +1,64 @@
+"""What a pre-flight looks at, opened: the bus and the cameras."""
+
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import ExitStack, contextmanager
+from dataclasses import dataclass
+
+import can
+
+from drivers.can_log import open_bus
+from drivers.opencv_camera import open_camera
+from drivers.ports import Camera
+from fieldnav.errors import DriverError
+from fieldnav.messages import CameraName
+from fieldnav.preflight.finding import Finding, Verdict
+from fieldnav.settings.robot import Bus, Robot
+
+BITS_PER_KILOBIT = 1000
+
+
+@dataclass(frozen=True, slots=True)
+class Gear:
+    """What could be opened: the bus, None where it could not, and each camera that could."""
+
+    bus: can.BusABC | None
+    cameras: Mapping[CameraName, Camera]
+
+
+@contextmanager
+def opened(robot: Robot, clock: Callable[[], float]) -> Iterator[tuple[Gear, tuple[Finding, ...]]]:
+    """Open what there is, with a finding each, and close it again; `clock` is that of the cameras' stamps."""
+    with ExitStack() as stack:
+        bus, findings = _bus(robot.can, stack)
+        cameras = {}
+        for name in CameraName:
+            camera, finding = _camera(name, robot, clock, stack)
+            findings.append(finding)
+            if camera is not None:
+                cameras[name] = camera
+        yield Gear(bus, cameras), tuple(findings)
+
+
+def _bus(settings: Bus, stack: ExitStack) -> tuple[can.BusABC | None, list[Finding]]:
+    try:
+        bus = open_bus(settings)
+    except DriverError as error:
+        advice = "set the interface up, or can.interface and can.channel right"
+        return None, [Finding("bus opens", Verdict.FAIL, str(error), advice)]
+    stack.callback(bus.shutdown)
+    rate = f"{settings.bitrate / BITS_PER_KILOBIT:g} kbit/s"
+    return bus, [Finding("bus opens", Verdict.OK, f"{settings.interface} {settings.channel}, {rate}")]
+
+
+def _camera(
+    name: CameraName, robot: Robot, clock: Callable[[], float], stack: ExitStack
+) -> tuple[Camera | None, Finding]:
+    check, settings = f"{name.value} camera opens", robot.cameras.get(name)
+    try:
+        camera = open_camera(name, settings, clock)
+    except DriverError as error:
+        said = str(error).removeprefix(f"{name.value} camera: ")
+        advice = f"see to its cable, or to cameras.{name.value}.source"
+        return None, Finding(check, Verdict.FAIL, said, advice)
+    stack.callback(camera.close)
+    return camera, Finding(check, Verdict.OK, settings.source)
