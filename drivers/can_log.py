@@ -1,5 +1,7 @@
 """Opening the CAN bus, and writing every frame that passes to can.log."""
 
+import logging
+from collections.abc import Callable
 from itertools import count
 from pathlib import Path
 
@@ -20,14 +22,16 @@ def open_bus(settings: Bus) -> can.BusABC:
     """The bus of a robot file. Raises DriverError with the interface and the channel."""
     if settings.interface == VIRTUAL:
         return VirtualBus(settings.channel, preserve_timestamps=True)
+    logging.getLogger("can").setLevel(logging.CRITICAL)  # what matters comes as an error
     try:
         return can.Bus(
             interface=settings.interface,
             channel=settings.channel,
             bitrate=settings.bitrate,
             ignore_config=True,
+            **settings.options,  # type: ignore[arg-type]  # of the interface, which knows their kinds
         )
-    except (can.CanError, OSError, ValueError, ImportError, NotImplementedError) as error:
+    except (can.CanError, OSError, ValueError, TypeError, ImportError, NotImplementedError) as error:
         raise DriverError(
             f"CAN bus cannot be opened: interface {settings.interface}, channel {settings.channel}: {error}"
         ) from error
@@ -43,13 +47,21 @@ class LoggedBus(can.BusABC):
     """A bus that writes each frame it sends or receives, once and in order, by the frames' own stamps.
 
     The log is candump's format, which python-can, can-utils, SavvyCAN and cantools read: T was sent by the
-    host, R was received. `channel` is the name it gives the bus. Closes the bus below and the file.
+    host, R was received. `channel` is the name it gives the bus; with a `clock`, the one of the host's own
+    stamps, frames are noted when they are taken in. Closes the bus below and the file.
 
     The log never decides whether a frame passes: once it cannot be written it is given up, `failure` says
     why, and the bus goes on. Raises OutputError, with the bus below closed, when it cannot even be begun.
     """
 
-    def __init__(self, bus: can.BusABC, path: Path, channel: str) -> None:
+    def __init__(
+        self,
+        bus: can.BusABC,
+        path: Path,
+        channel: str,
+        append: bool = False,
+        clock: Callable[[], float] | None = None,
+    ) -> None:
         super().__init__(channel=channel)
         self.channel_info = f"{bus.channel_info}, logged"
         self.failure: str | None = None
@@ -57,9 +69,10 @@ class LoggedBus(can.BusABC):
         self._name = path.name
         self._channel = channel
         self._flushed_s: float | None = None
+        self._clock = clock
         self._log: can.CanutilsLogWriter | None = None
         try:
-            self._log = can.CanutilsLogWriter(path, channel=channel)
+            self._log = can.CanutilsLogWriter(path, channel=channel, append=append)
         except OSError as error:
             self.shutdown()
             raise OutputError(f"{path}: cannot be written: {error.strerror or error}") from error
@@ -73,8 +86,19 @@ class LoggedBus(can.BusABC):
     def recv(self, timeout: float | None = None) -> can.Message | None:
         msg = self._bus.recv(timeout)
         if msg is not None:
+            if self._clock is not None:
+                msg.timestamp = self._clock()
             self._keep(msg)
         return msg
+
+    @property
+    def state(self) -> can.BusState:
+        """What the bus below tells of its controller."""
+        return self._bus.state
+
+    @state.setter
+    def state(self, new: can.BusState) -> None:
+        self._bus.state = new
 
     def shutdown(self) -> None:
         """Close the bus below and the log; may be repeated."""

@@ -31,8 +31,10 @@ TOLERANCE_S = 1e-6
 class ThorvaldWheels:
     """Four drive-and-steer modules on one bus. Raises SettingsError for a node id that the DBC file lacks."""
 
-    def __init__(self, robot: Robot, bus: can.BusABC) -> None:
+    def __init__(self, robot: Robot, bus: can.BusABC, listening: bool = False) -> None:
+        """listening: nothing goes out, so that others may command the wheels."""
         check_nodes(robot)
+        self._listening = listening
         self._line = HostLine(bus, robot.can)
         self._timeouts = robot.timeouts
         self._links = {wheel: ModuleLink(wheel, robot.modules[wheel]) for wheel in Wheel}
@@ -134,7 +136,7 @@ class ThorvaldWheels:
         back, foreign = False, ""
         for telegram in self._line.received(now_s):
             link = self._by_node.get(telegram.node)
-            if self._takeover.is_command(telegram):
+            if self._takeover.is_command(telegram) and not self._listening:
                 called = link.name if link else "the bus"
                 foreign = self._takeover.note(telegram, called, now_s) or foreign
             elif telegram.kind is Kind.BATTERY_CHARGE and telegram.values:

@@ -52,8 +52,8 @@ def resumption(place: Place) -> Resumption:
     """Where to go on from a place.
 
     In a lane its rows are found anew. A robot that has left it but not yet moved sideways exits once more.
-    From a sidestep it goes back to the old lane and looks for the next from there; one that already drives into
-    the next lane is in it.
+    From a sidestep it goes back to the old lane and looks for the next from there; one that already drives
+    into the next lane is in it.
     """
     lane = LaneMemory(
         place.lane, expected_m=place.expected_m, from_m=place.lane_from_m, pitches_m=place.pitches_m

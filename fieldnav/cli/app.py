@@ -13,10 +13,12 @@ from fieldnav.cli.bench import bench
 from fieldnav.cli.check import check
 from fieldnav.cli.console import FAILED, print_error
 from fieldnav.cli.count import count
+from fieldnav.cli.ctl import ctl
 from fieldnav.cli.detect import detect
 from fieldnav.cli.diagram import diagram
 from fieldnav.cli.log import log
 from fieldnav.cli.profiles import profiles
+from fieldnav.cli.run import run as drive
 from fieldnav.cli.simulate import simulate
 from fieldnav.errors import FieldnavError
 
@@ -54,6 +56,8 @@ def fieldnav(
 
 
 app.command()(simulate)
+app.command("run")(drive)
+app.add_typer(ctl)
 app.command()(detect)
 app.command()(count)
 app.command()(check)

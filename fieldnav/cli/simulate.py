@@ -19,6 +19,9 @@ if TYPE_CHECKING:
 STOPPED = 1
 """Exit status of a mission that ended before its field did, or left a lane out."""
 
+LAST_PORT = 65534
+"""The pictures of a served robot take the next one, and there are no more than 65535."""
+
 OPTIONS = {"crop": "--crop", "lanes": "--lanes", "length_m": "--length", "seed": "--seed"}
 """The field's keys that options change."""
 
@@ -46,10 +49,28 @@ def simulate(
     sketch: Annotated[
         bool, typer.Option("--sketch", help="Draw plants as bare stars: faster, to try settings.")
     ] = False,
-    as_json: Annotated[bool, typer.Option("--json", help="Print summary.json and nothing else.")] = False,
+    as_json: Annotated[bool, typer.Option("--json", help="Print JSON and nothing else.")] = False,
+    serve: Annotated[
+        bool, typer.Option("--serve", help="Drive nothing: offer the robot on this machine, in real time.")
+    ] = False,
+    port: Annotated[
+        int, typer.Option(min=0, max=LAST_PORT, help="Of the served bus; pictures on the next. 0: any.")
+    ] = 0,
+    robot_file: Annotated[
+        Path, typer.Option(help="Where --serve writes the robot file to drive it by.", metavar="FILE")
+    ] = Path("served-robot.yaml"),
 ) -> int:
-    """Drive a whole field in simulation: the real mission, driver and CAN frames, rendered cameras."""
+    """Drive a whole field in simulation: the real mission, driver and CAN frames, rendered cameras.
+
+    With --serve: the same robot for another process, say fieldnav run, until Ctrl-C. With --json it then
+    prints two lines: where everything is, and in the end what the robot truly did.
+    """
     settings = _field(field, {"crop": crop, "lanes": lanes, "length_m": length, "seed": seed})
+    if serve:
+        from fieldnav.cli.serve import refuse, serve_robot  # noqa: PLC0415 - see _run
+
+        refuse({"--video": video, "--realtime": realtime})
+        return serve_robot(settings, robot, Side(side.value), port, sketch, robot_file, as_json)
     run = replace(_run(settings, robot, Side(side.value), out_dir, video, realtime), sketch=sketch)
     return _drive_for_programs(run) if as_json else _drive_for_people(run)
 

@@ -49,6 +49,10 @@ class RunDirectory:
         return self.path / "settings.yaml"
 
     @property
+    def ledger(self) -> Path:
+        return self.path / "ledger.jsonl"
+
+    @property
     def can_log(self) -> Path:
         return self.path / "can.log"
 

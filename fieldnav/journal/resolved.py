@@ -1,14 +1,19 @@
 """settings.yaml: everything in force during a run, resolved, with the application's version."""
 
-from collections.abc import Mapping
+from collections.abc import Hashable, Mapping
+from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 import yaml
 
 from fieldnav import __version__
+from fieldnav.errors import SettingsError
 from fieldnav.journal.files import write_atomically
 from fieldnav.settings.crop import CropProfile
+from fieldnav.settings.documents import parse_mapping, read_text
 from fieldnav.settings.field import FieldSettings
+from fieldnav.settings.loading import checked
 from fieldnav.settings.robot import Robot
 
 HEADER = (
@@ -16,6 +21,14 @@ HEADER = (
 )
 
 Option = str | int | float | bool | None
+
+
+@dataclass(frozen=True, slots=True)
+class Settings:
+    """What a run was driven with."""
+
+    crop: CropProfile
+    robot: Robot
 
 
 def write_settings(
@@ -31,3 +44,18 @@ def write_settings(
     document |= {name: part.model_dump(mode="json") for name, part in parts.items() if part is not None}
     text = HEADER + yaml.safe_dump(document, sort_keys=False, allow_unicode=True, width=110)
     write_atomically(path, text.encode())
+
+
+def read_settings(path: Path) -> Settings:
+    """The settings that a run's directory keeps. Raises SettingsError."""
+    label = str(path)
+    document = parse_mapping(read_text(label), label)
+    crop = checked(CropProfile, _part(document, "crop", label), f"{label}: crop")
+    return Settings(crop, checked(Robot, _part(document, "robot", label), f"{label}: robot"))
+
+
+def _part(document: Mapping[Hashable, Any], name: str, label: str) -> Mapping[Any, Any]:
+    part = document.get(name)
+    if not isinstance(part, Mapping):
+        raise SettingsError(f"{label}: {name}: is not there; allowed is the settings.yaml of a run")
+    return part

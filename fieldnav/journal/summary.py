@@ -58,8 +58,16 @@ class Truth(_Figures):
     lanes_repeated: int
 
 
+class LoopHealth(_Figures):
+    """How late the rounds of the loop began, on the wall clock."""
+
+    rounds: int
+    late_p99_ms: float
+    late_max_ms: float
+
+
 class Summary(_Figures):
-    """A run's figures; `truth` in simulation only, `warnings` where there are any."""
+    """A run's figures; `truth` in simulation only, `loop` on a robot, `warnings` where there are any."""
 
     completed: bool
     lanes: Lanes
@@ -73,11 +81,12 @@ class Summary(_Figures):
     headland_m: Headland = Headland()
     warnings: tuple[str, ...] = ()
     truth: Truth | None = None
+    loop: LoopHealth | None = None
 
 
 def to_json(summary: Summary) -> str:
-    """A summary as indented JSON; `truth` and `warnings` are left out where there are none."""
-    exclude = {name for name in ("truth", "warnings") if not getattr(summary, name)}
+    """A summary as indented JSON; `truth`, `loop` and `warnings` are left out where there are none."""
+    exclude = {name for name in ("truth", "loop", "warnings") if not getattr(summary, name)}
     return summary.model_dump_json(indent=2, exclude=exclude)
 
 

@@ -24,9 +24,11 @@ class Chronicle:
         self._journal, self._observers = journal, list(observers)
         self._behaviours, self._travel = behaviours, travel
         self._held_in: Path | None = None
+        self._because = ""
 
     def changed(self, now_s: float, change: Change, step: Step) -> None:
         """Write down a transition, and the step that asked for it."""
+        self._because = step.reason
         self._record(now_s, change.event.value, change.source, change.target, step)
 
     def held(self, now_s: float, leaf: Path, passed: Passed) -> None:
@@ -56,6 +58,7 @@ class Chronicle:
             forward_m=self._travel.forward_m,
             sideways_m=self._travel.sideways_m,
             warning=warning,
+            reason=self._because,
         )
         for observer in tuple(self._observers):
             self._show(observer, tick)

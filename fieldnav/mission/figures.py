@@ -1,8 +1,9 @@
 """The figures of a run, counted as it goes."""
 
 from collections import Counter
+from collections.abc import Collection
 
-from fieldnav.journal.summary import Headland, Lanes, Summary, Switches, Truth
+from fieldnav.journal.summary import Headland, Lanes, LoopHealth, Summary, Switches, Truth
 from fieldnav.mission.tick import Tick
 from states.names import Event
 from states.table import FINISHED
@@ -13,8 +14,9 @@ SECONDS_DIGITS, METRES_DIGITS = 2, 3
 class Figures:
     """Watches a mission and sums it up."""
 
-    def __init__(self, lanes: int) -> None:
-        self._lanes = lanes
+    def __init__(self, lanes: int, done: Collection[int] = ()) -> None:
+        """done: the lanes that were left behind before this run was broken off."""
+        self._lanes, self._done = lanes, set(done)
         self._events: Counter[Event] = Counter()
         self._last_m: tuple[float, float] | None = None
         self._distance_m = 0.0
@@ -34,15 +36,19 @@ class Figures:
             self._warnings.append(tick.warning)
         if tick.change is not None:
             self._events[tick.change.event] += 1
+            if tick.change.event in (Event.LANE_LEFT, Event.LAST_LANE_LEFT):
+                self._done.add(tick.lane)
             self._finished = tick.change.target == FINISHED
 
-    def summary(self, wall_s: float, headland: Headland, truth: Truth | None) -> Summary:
+    def summary(
+        self, wall_s: float, headland: Headland, truth: Truth | None, loop: LoopHealth | None = None
+    ) -> Summary:
         """The figures so far."""
         events = self._events
         duration_s = self._now_s - (self._started_s or 0.0)
         return Summary(
             completed=self._finished,
-            lanes=Lanes(done=events[Event.LANE_LEFT] + events[Event.LAST_LANE_LEFT], total=self._lanes),
+            lanes=Lanes(done=len(self._done), total=self._lanes),
             distance_m=round(self._distance_m, METRES_DIGITS),
             duration_s=round(duration_s, SECONDS_DIGITS),
             wall_s=round(wall_s, SECONDS_DIGITS),
@@ -53,4 +59,5 @@ class Figures:
             headland_m=headland,
             warnings=tuple(self._warnings),
             truth=truth,
+            loop=loop,
         )

@@ -54,11 +54,13 @@ class Mission:
         observers: Iterable[Observer] = (),
         ledger: Ledger | None = None,
         confirmations: Confirmations | None = None,
+        commanding: bool = True,
     ) -> None:
+        """commanding: False in a dry run, whose wheels do not do what they are told."""
         self.wheels = wheels
         self._gate, self.travel = Gate(wheels, robot), Travel(robot)
         self._eyes = Eyes(cameras, task.cameras, robot)
-        self._watches = Watches(robot, task)
+        self._watches = Watches(robot, task, commanding)
         self.machine = MissionMachine()
         self.behaviours = Behaviours(task)
         self._chronicle = Chronicle(journal, observers, self.behaviours, self.travel)
@@ -120,6 +122,15 @@ class Mission:
             with suppress(DriverError):
                 self.wheels.emergency_stop(now_s)
         self.break_off(now_s, EVENTS[trouble.reaction], str(trouble))
+
+    def end(self, now_s: float, reason: str) -> None:
+        """Stop for good on a person's word, from whatever state."""
+        self.break_off(now_s, Event.FAIL, reason)
+        self._ended_s = now_s
+
+    def note(self, now_s: float, trouble: Trouble) -> None:
+        """Write down what changes no state."""
+        self._chronicle.noted(now_s, trouble.fault.value, self.machine.leaf, Step(reason=trouble.said))
 
     def break_off(self, now_s: float, event: Event, reason: str) -> None:
         """Stop the wheels, then go to a state that stands and say why."""

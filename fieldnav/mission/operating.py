@@ -30,14 +30,14 @@ class Operating:
             self._left = (travel.forward_m, travel.sideways_m)
             self._allowed_m = PUSHED_M + speed_mps**2 / (2 * SLOWEST_BRAKING_MPS2)
 
-    def pause(self, now_s: float) -> str:
+    def pause(self, now_s: float, by: str = "by the operator") -> str:
         mission = self._mission
         if not mission.machine.may(Event.PAUSE):
             return f"there is nothing to pause in {text(mission.machine.leaf)}"
-        mission.go(now_s, Step(event=Event.PAUSE, reason="paused by the operator"))
+        mission.go(now_s, Step(event=Event.PAUSE, reason=f"paused {by}"))
         return ""
 
-    def resume(self, now_s: float) -> str:
+    def resume(self, now_s: float, by: str = "by the operator") -> str:
         """Go on where the mission was interrupted; also the yes to a question."""
         mission = self._mission
         if not mission.machine.may(Event.RESUME) or mission.machine.leaf in LANE_LEAVES:
@@ -47,10 +47,10 @@ class Operating:
         if self._moved_m > self._allowed_m:
             return f"the robot was moved by {self._moved_m:.2f} m meanwhile: reset lets it look for its place"
         mission.confirmations.grant()
-        mission.go(now_s, Step(event=Event.RESUME, reason="resumed by the operator"))
+        mission.go(now_s, Step(event=Event.RESUME, reason=f"resumed {by}"))
         return ""
 
-    def reset(self, now_s: float) -> str:
+    def reset(self, now_s: float, by: str = "by the operator") -> str:
         """Release the modules and begin again with the checks, at the place that the ledger has."""
         mission = self._mission
         if mission.machine.leaf == FINISHED or not mission.machine.may(Event.RESET):
@@ -62,7 +62,7 @@ class Operating:
         except DriverError as error:
             return str(error)
         mission.confirmations.withdraw()
-        mission.go(now_s, Step(event=Event.RESET, reason="reset by the operator"))
+        mission.go(now_s, Step(event=Event.RESET, reason=f"reset {by}"))
         if mission.books.newest is not None:
             mission.resume_from(mission.books.newest)
         mission.start(now_s)

@@ -11,7 +11,10 @@ from states.names import Path
 
 @dataclass(frozen=True, slots=True)
 class Tick:
-    """What happened in one tick, for those who watch; `warning` is what a person should know from it on."""
+    """What happened in one tick, for those who watch.
+
+    reason: why the state was changed last; warning: what a person should know from this tick on.
+    """
 
     now_s: float
     state: Path
@@ -24,6 +27,7 @@ class Tick:
     forward_m: float
     sideways_m: float
     warning: str = ""
+    reason: str = ""
 
 
 class Observer(Protocol):

@@ -17,7 +17,8 @@ from states.names import Path
 class Watches:
     """Time, wheels, progress, battery, and the cameras' places and rates."""
 
-    def __init__(self, robot: Robot, task: Task) -> None:
+    def __init__(self, robot: Robot, task: Task, commanding: bool) -> None:
+        self._commanding = commanding
         self._loop_s = robot.timeouts.loop_s
         self._least_percent = robot.battery.least_charge
         self._camera_watch = CameraWatch(task, robot.camera_limits)
@@ -34,7 +35,7 @@ class Watches:
 
     def wheels(self, now_s: float, report: WheelReport, taken_over: bool) -> Trouble | None:
         """The first wheel that does not do what it was told; none while another commands them."""
-        if taken_over:
+        if taken_over or not self._commanding:
             self._wheel_watch.forget()
             return None
         return self._wheel_watch.trouble(now_s, report)
@@ -49,7 +50,7 @@ class Watches:
         if charge is not None and charge < self._least_percent:
             said = f"charge {charge:.0f} percent, limit {self._least_percent:.0f}"
             return Trouble(FaultKind.BATTERY_FLAT, said)
-        return self._progress.trouble(now_s, passed, standing)
+        return self._progress.trouble(now_s, passed, standing and self._commanding)
 
     def notes(
         self, leaf: Path, step: Step, forward_m: float, eyes: Eyes, guides: tuple[CameraName, ...]

@@ -6,6 +6,7 @@ from typing import Any
 import yaml
 
 from fieldnav.errors import SettingsError
+from fieldnav.settings.one_line import one_line
 from fieldnav.settings.regular_file import read_regular
 from fieldnav.settings.strict_loader import RefusedError, StrictLoader
 
@@ -18,15 +19,15 @@ def parse_mapping(text: str, label: str) -> dict[Hashable, Any]:
     try:
         document = yaml.load(text, Loader=StrictLoader)
     except RefusedError as error:
-        raise SettingsError(f"{label}: {_place(error)}{error.problem}") from error
+        raise SettingsError(f"{label}: {_place(error)}{one_line(str(error.problem))}") from error
     except yaml.MarkedYAMLError as error:
-        problem = error.problem or "unreadable"
+        problem = one_line(error.problem or "unreadable")
         raise SettingsError(f"{label}: is not valid YAML: {_place(error)}{problem}") from error
     except yaml.YAMLError as error:
-        raise SettingsError(f"{label}: is not valid YAML: {' '.join(str(error).split())}") from error
+        raise SettingsError(f"{label}: is not valid YAML: {_in_one_line(error)}") from error
     except (ArithmeticError, AttributeError, LookupError, RecursionError, TypeError, ValueError) as error:
         # The library lets these through where a value looks like a number and is none.
-        raise SettingsError(f"{label}: is not valid YAML: {' '.join(str(error).split())}") from error
+        raise SettingsError(f"{label}: is not valid YAML: {_in_one_line(error)}") from error
     if not isinstance(document, dict):
         found = "is empty" if document is None else f"holds a {_kind(document)}"
         raise SettingsError(f"{label}: {found}; allowed is a mapping of keys to values, 'key: value' a line")
@@ -39,6 +40,10 @@ def read_text(path: str) -> str:
         return read_regular(path, LARGEST_FILE_BYTES).decode("utf-8-sig")
     except UnicodeDecodeError as error:
         raise SettingsError(f"{path}: is not a text file in UTF-8") from error
+
+
+def _in_one_line(error: Exception) -> str:
+    return one_line(" ".join(str(error).split()))
 
 
 def _place(error: yaml.MarkedYAMLError) -> str:

@@ -20,7 +20,8 @@ from fieldnav.settings.field import FieldSettings
 from fieldnav.settings.fit import check_fit, check_size
 from fieldnav.settings.kinds import Kind, is_path, names_of
 from fieldnav.settings.model import Settings
-from fieldnav.settings.problems import MOST_DESCRIBED, describe, nearest
+from fieldnav.settings.one_line import one_line
+from fieldnav.settings.problems import MOST_DESCRIBED, describe, nearest, shortened
 from fieldnav.settings.robot import Robot
 
 __all__ = [
@@ -81,12 +82,13 @@ def load(kind: Kind, name_or_path: str | Path) -> CropProfile | Robot | FieldSet
 
 def parse(model: type[Model], text: str, label: str) -> Model:
     """Settings from the text of a file that messages call `label`. Raises SettingsError."""
-    return _checked(model, parse_mapping(text, label), label)
+    return checked(model, parse_mapping(text, label), label)
 
 
-def _checked(
+def checked(
     model: type[Model], document: Mapping[Any, Any], label: str, called: Mapping[str, str] | None = None
 ) -> Model:
+    """Settings of a document that was read from `label`; `called`: see `revised`. Raises SettingsError."""
     try:
         # Strict JSON rules refuse "yes" for a number and 2.5 for a count, but take enums and lists.
         return model.model_validate_json(json.dumps(_plain(document)), strict=True)
@@ -109,7 +111,7 @@ def revised(
     `called` has the name that a key goes by where the change came from, say an option's.
     """
     document = settings.model_dump(mode="json") | dict(changes)
-    return _checked(type(settings), document, label, called)
+    return checked(type(settings), document, label, called)
 
 
 def _load(kind: Kind, model: type[Model], name_or_path: str | Path) -> Model:
@@ -120,7 +122,8 @@ def _load(kind: Kind, model: type[Model], name_or_path: str | Path) -> Model:
     known = names_of(kind)
     if name not in known:
         raise SettingsError(
-            f"unknown {kind.singular} '{name}': {nearest(name, known)}; a file of your own ends in .yaml"
+            f"unknown {kind.singular} '{shortened(one_line(name))}': {nearest(name, known)}; "
+            "a file of your own ends in .yaml"
         )
     resource = files("config") / kind.value / f"{name}.yaml"
     return parse(model, resource.read_text(encoding="utf-8"), label)

@@ -1,14 +1,16 @@
 """What pydantic found wrong, said in one line: the key, its value, what is allowed."""
 
 import json
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from difflib import get_close_matches
-from enum import Enum
-from typing import Any, Literal, get_args, get_origin
+from types import NoneType, UnionType
+from typing import Literal, get_args, get_origin
 
 from pydantic import BaseModel, ValidationError
-from pydantic.fields import FieldInfo
 from pydantic_core import ErrorDetails
+
+from fieldnav.settings.found import Found, find, is_enum, is_model, known_part
+from fieldnav.settings.one_line import one_line
 
 LONGEST_VALUE = 40
 """Characters of a bad value that are quoted; the rest would bury the message."""
@@ -32,21 +34,22 @@ def describe(
     unknown = [problem for problem in problems if problem["type"] == "extra_forbidden"]
     meant = {(*problem["loc"][:-1], _meant(problem, model)) for problem in unknown}
     rest = [problem for problem in problems if problem not in unknown and problem["loc"] not in meant]
-    return list(dict.fromkeys(_line(problem, model, called or {}) for problem in [*unknown, *rest]))
+    lines = (one_line(_line(problem, model, called or {})) for problem in [*unknown, *rest])
+    return list(dict.fromkeys(lines))
 
 
 def _meant(problem: ErrorDetails, model: type[BaseModel]) -> str:
     """The key that a misspelt one stands for; that it is missing need not be said as well."""
-    owner = _find(model, problem["loc"][:-1]).kind
+    owner = find(model, problem["loc"][:-1]).kind
     close = get_close_matches(str(problem["loc"][-1]), list(owner.model_fields), n=1)
     return close[0] if close else ""
 
 
 def _line(problem: ErrorDetails, model: type[BaseModel], called: Mapping[str, str]) -> str:
-    location = [part for part in problem["loc"] if part != "[key]"]
-    key = _shortened(".".join(str(part) for part in location))
+    location = known_part(model, [part for part in problem["loc"] if part != "[key]"])
+    key = shortened(".".join(str(part) for part in location))
     key = called.get(key, key)
-    found, owner = _find(model, location), _find(model, location[:-1])
+    found, owner = find(model, location), find(model, location[:-1])
     value = _quoted(problem["input"])
     if "[key]" in problem["loc"]:
         return f"{key}: there is no such key; {nearest(str(location[-1]), _keys(owner))}"
@@ -57,7 +60,7 @@ def _line(problem: ErrorDetails, model: type[BaseModel], called: Mapping[str, st
             return f"{key}: is missing; allowed is {_allowed(found)}"
         case "value_error" | "assertion_error":
             reason = str(problem.get("ctx", {}).get("error", problem["msg"]))
-            if _is_model(found.kind):  # the reason names what in the group does not go together
+            if is_model(found.kind):  # the reason names what in the group does not go together
                 return f"{key}: {reason}" if key else reason
             return f"{key}: {value}: {reason}"
     return f"{key}: {value} is not allowed; allowed is {_allowed(found)}"
@@ -70,42 +73,6 @@ def nearest(word: str, known: Sequence[str]) -> str:
     return f"{meant}known are {', '.join(known)}"
 
 
-class Found:
-    """What a dotted key stands for: its type, its bounds and what it is."""
-
-    def __init__(self, kind: Any, constraints: Sequence[Any] = (), description: str | None = None) -> None:
-        while hasattr(kind, "__metadata__"):
-            constraints = [*constraints, *_flattened(kind.__metadata__)]
-            kind = get_args(kind)[0]
-        self.kind, self.constraints, self.description = kind, list(constraints), description
-
-    def child(self, part: int | str) -> "Found":
-        if _is_model(self.kind):
-            fields: Mapping[str, FieldInfo] = self.kind.model_fields
-            field = fields.get(str(part))
-            return Found(field.annotation, field.metadata, field.description) if field else Found(Any)
-        arguments = get_args(self.kind)
-        if get_origin(self.kind) is dict:
-            return Found(arguments[1])
-        if get_origin(self.kind) is tuple and arguments[-1] is Ellipsis:
-            return Found(arguments[0])
-        if get_origin(self.kind) is tuple and isinstance(part, int) and part < len(arguments):
-            return Found(arguments[part])
-        return Found(Any)
-
-
-def _find(model: type[BaseModel], location: Sequence[int | str]) -> Found:
-    found = Found(model)
-    for part in location:
-        found = found.child(part)
-    return found
-
-
-def _flattened(metadata: Sequence[Any]) -> Iterator[Any]:
-    for item in metadata:
-        yield from item.metadata if isinstance(item, FieldInfo) else [item]
-
-
 def _allowed(found: Found) -> str:
     described = f" ({found.description})" if found.description else ""
     return f"{_kind(found)}{described}"
@@ -113,10 +80,10 @@ def _allowed(found: Found) -> str:
 
 def _keys(found: Found) -> list[str]:
     """The keys that a group may hold."""
-    if _is_model(found.kind):
+    if is_model(found.kind):
         return list(found.kind.model_fields)
-    if get_origin(found.kind) is dict:
-        return [str(member.value) for member in get_args(found.kind)[0]]
+    if get_origin(found.kind) is dict and is_enum(named := get_args(found.kind)[0]):
+        return [str(member.value) for member in named]
     return []
 
 
@@ -124,16 +91,27 @@ def _kind(found: Found) -> str:
     kind = found.kind
     if keys := _keys(found):
         return f"a group of the keys {', '.join(keys)}"
-    if isinstance(kind, type) and issubclass(kind, Enum):
+    if is_enum(kind):
         return " or ".join(str(member.value) for member in kind)
     if get_origin(kind) is Literal:
         return " or ".join(str(value) for value in get_args(kind))
-    if get_origin(kind) is tuple and get_args(kind)[-1] is Ellipsis:
-        return f"a list, each of {_kind(Found(get_args(kind)[0]))}"
-    if get_origin(kind) is tuple:
-        return f"[{', '.join(_kind(Found(argument)) for argument in get_args(kind))}]"
+    if get_origin(kind) in (dict, tuple, UnionType):
+        return _made_of(found)
     names = {float: "a number", int: "a whole number", bool: "true or false", str: "text"}
     return " ".join([names.get(kind, "another value"), *_limits(found)])
+
+
+def _made_of(found: Found) -> str:
+    """What holds others: a mapping, a list, a choice of kinds."""
+    arguments = get_args(found.kind)
+    if get_origin(found.kind) is dict:
+        return f"a group of keys, each with {_kind(Found(arguments[1]))}"
+    if get_origin(found.kind) is UnionType:
+        kinds = [_kind(Found(each, found.constraints)) for each in arguments if each is not NoneType]
+        return " or ".join([*kinds, "null"] if NoneType in arguments else kinds)
+    if arguments[-1] is Ellipsis:
+        return f"a list, each of {_kind(Found(arguments[0]))}"
+    return f"[{', '.join(_kind(Found(each)) for each in arguments)}]"
 
 
 def _limits(found: Found) -> list[str]:
@@ -152,14 +130,11 @@ def _plain(bound: float) -> str:
     return f"{bound:.{BOUND_DIGITS}g}"
 
 
-def _is_model(kind: Any) -> bool:
-    return isinstance(kind, type) and issubclass(kind, BaseModel)
-
-
 def _quoted(value: object) -> str:
     text = f"'{value}'" if isinstance(value, str) else json.dumps(value, default=str)
-    return _shortened(text)
+    return shortened(text)
 
 
-def _shortened(text: str) -> str:
+def shortened(text: str) -> str:
+    """So much of a text as a message may quote."""
     return text if len(text) <= LONGEST_VALUE else f"{text[:LONGEST_VALUE]}..."

@@ -1,0 +1,59 @@
+"""A run's own terminal: one live line, and keys that speak to the mission."""
+
+import sys
+from collections.abc import Iterator
+from contextlib import ExitStack, contextmanager
+
+from rich.console import Console
+from rich.live import Live
+from rich.text import Text
+
+from fieldnav.cli.live_line import LiveLine
+from fieldnav.faults import FAULTS, FaultKind
+from fieldnav.mission.real import Watchers
+from fieldnav.mission.tick import Tick
+from fieldnav.operator.terminal import HELP, TerminalKeys
+from states.names import Event, text
+
+INTERRUPTING = (Event.PAUSE, Event.FAIL, Event.LATCH)
+WHAT_NEXT = {
+    Event.PAUSE: "go on with Enter, or `fieldnav ctl resume`",
+    Event.FAIL: "then Enter or `fieldnav ctl resume`; or Ctrl-C, and later `fieldnav run --resume last`",
+    Event.LATCH: "then `fieldnav ctl reset`; or Ctrl-C, and later `fieldnav run --resume last`",
+}
+
+
+class Announcer:
+    """Says in plain lines why the robot stopped and what to do; the journal has the rest."""
+
+    def __init__(self, console: Console) -> None:
+        self._console = console
+
+    def watch(self, tick: Tick) -> None:
+        if tick.change is None or tick.change.event not in INTERRUPTING:
+            return
+        said = tick.reason or tick.change.event.value
+        advice = next((FAULTS[kind].advice for kind in FaultKind if said.startswith(f"{kind.value}:")), "")
+        self._console.print(Text(f"{tick.now_s:.1f} s  {text(tick.state)}: {said}", "bold yellow"))
+        what = f"{advice}; {WHAT_NEXT[tick.change.event]}" if advice else WHAT_NEXT[tick.change.event]
+        self._console.print(Text(f"  {what}"))
+
+
+@contextmanager
+def terminal(lanes: int, quiet: bool) -> Iterator[Watchers]:
+    """Who watches the run for the person at its terminal, and the keys; nobody where it is `quiet`."""
+    console = Console(stderr=True, highlight=False)
+    with ExitStack() as stack:
+        keys = stack.enter_context(TerminalKeys(lambda said: console.print(Text(said))))
+        requests = (keys,) if keys.here else ()
+        if quiet:
+            yield Watchers((), requests)
+            return
+        watching = [Announcer(console)]
+        if not sys.stderr.isatty():
+            yield Watchers(watching, requests)
+            return
+        if keys.here:
+            console.print(Text(HELP, "dim"))
+        live = stack.enter_context(Live(Text(""), console=console, auto_refresh=False, transient=True))
+        yield Watchers([*watching, LiveLine(live, lanes)], requests)

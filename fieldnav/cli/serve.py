@@ -1,0 +1,106 @@
+"""`fieldnav simulate --serve`: the simulated robot for another process to drive, until it is stopped."""
+
+import json
+import shlex
+import signal
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
+from math import degrees
+from pathlib import Path
+from threading import Event
+from types import FrameType
+
+from fieldnav.cli.console import out, table
+from fieldnav.cli.mission_report import _against_truth as against_truth
+from fieldnav.errors import SettingsError
+from fieldnav.messages import CameraName, Side
+from fieldnav.settings.field import FieldSettings
+from fieldnav.settings.kinds import is_path
+from fieldnav.settings.loading import load_crop, load_robot
+from fieldnav.simulation.served.robot_file import write_robot_file
+from fieldnav.simulation.served.served_robot import Offer, ServedRobot
+from fieldnav.simulation.served.witness import Account
+
+
+def refuse(options: Mapping[str, bool]) -> None:
+    """Raises SettingsError for an option that was given and has nothing to act on."""
+    for option, given in options.items():
+        if given:
+            raise SettingsError(f"{option}: does not go with --serve, which drives nothing")
+
+
+def serve_robot(
+    field: FieldSettings, robot: str, side: Side, port: int, sketch: bool, robot_file: Path, as_json: bool
+) -> int:
+    """Serve until Ctrl-C or SIGTERM, then tell what the robot truly did; returns the exit status.
+
+    Raises FieldnavError for settings that do not fit, for ports that are taken, for an unwritable file.
+    """
+    if not is_path(str(robot_file)):
+        raise SettingsError(
+            f"--robot-file: {robot_file} is not allowed; allowed is a file that ends in .yaml"
+        )
+    offer = Offer(field, load_crop(field.crop), load_robot(robot), side, port, sketch)
+    with ServedRobot(offer) as served:
+        write_robot_file(robot_file, served.robot)
+        with _stopped_by_signals() as stopping:
+            print(_offered(served, robot_file) if as_json else _invitation(offer, robot_file), flush=True)
+            served.serve(stopping)
+        account = served.account()
+    if as_json:
+        print(json.dumps(_as_document(account), ensure_ascii=False))
+    else:
+        out().print(table("", ("", ""), _as_rows(account)))
+    return 0
+
+
+@contextmanager
+def _stopped_by_signals() -> Iterator[Event]:
+    """An event that Ctrl-C and SIGTERM set: the world is between two steps when it ends."""
+    stopping = Event()
+
+    def stop(number: int, frame: FrameType | None) -> None:
+        stopping.set()
+
+    before = {number: signal.signal(number, stop) for number in (signal.SIGINT, signal.SIGTERM)}
+    try:
+        yield stopping
+    finally:
+        for number, handler in before.items():
+            signal.signal(number, handler)
+
+
+def _invitation(offer: Offer, robot_file: Path) -> str:
+    path = f"./{robot_file}" if robot_file.parent == Path() else str(robot_file)
+    task = ["--crop", offer.field.crop, "--lanes", str(offer.field.lanes), "--side", offer.side.value]
+    command = shlex.join(["fieldnav", "run", "--robot", path, *task])
+    return f"serving {offer.robot.name} in field {offer.field.name}: drive it with: {command}"
+
+
+def _offered(served: ServedRobot, robot_file: Path) -> str:
+    """Where everything is, as one line of JSON."""
+    cameras = {name.value: served.robot.cameras.get(name).source for name in CameraName}
+    bus = served.robot.can.model_dump(mode="json")
+    return json.dumps({"can": bus, "cameras": cameras, "robot_file": str(robot_file)}, ensure_ascii=False)
+
+
+def _as_document(account: Account) -> dict[str, object]:
+    pose = account.pose
+    return {
+        "truth": account.truth.model_dump(mode="json"),
+        "distance_m": round(account.distance_m, 3),
+        "pose": {
+            "x_m": round(pose.x_m, 3),
+            "y_m": round(pose.y_m, 3),
+            "heading_deg": round(degrees(pose.heading_rad), 3),
+        },
+    }
+
+
+def _as_rows(account: Account) -> list[tuple[str, str]]:
+    pose = account.pose
+    return [
+        ("distance, truly", f"{account.distance_m:.1f} m"),
+        ("stands at", f"x {pose.x_m:.2f} m, y {pose.y_m:.2f} m, {degrees(pose.heading_rad):.1f} deg"),
+        *against_truth(account.truth),
+    ]

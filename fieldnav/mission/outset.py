@@ -1,0 +1,56 @@
+"""Before a run drives: the pre-flight, then its directory."""
+
+from collections.abc import Callable, Iterable
+from datetime import datetime
+from pathlib import Path
+
+from fieldnav.journal.directory import RunDirectory
+from fieldnav.journal.resolved import write_settings
+from fieldnav.mission.real import Order
+from fieldnav.mission.taking_up import BrokenOff
+from fieldnav.preflight.computer import read_computer
+from fieldnav.preflight.finding import Finding, Verdict
+from fieldnav.preflight.gear import Gear
+from fieldnav.preflight.preflight import preflight
+from fieldnav.preflight.waiting import Watch
+
+
+def cleared(
+    order: Order,
+    gear: Gear,
+    findings: Iterable[Finding],
+    runs: Path,
+    clock: Callable[[], float],
+    wait: Callable[[float], None],
+    tell: Callable[[Finding], None],
+) -> list[Finding]:
+    """Look at everything, tell of it, and return what failed; findings: of the opening."""
+    failed = []
+    for finding in (
+        *findings,
+        *preflight(order.robot, order.crop, gear, read_computer(runs), Watch(clock, wait)),
+    ):
+        tell(finding)
+        if finding.verdict is Verdict.FAIL:
+            failed.append(finding)
+    return failed
+
+
+def begun(
+    order: Order, known: BrokenOff | None, parent: Path, utc: datetime
+) -> tuple[RunDirectory, datetime]:
+    """The directory of a new run with its settings, or that of the one taken up; when it began.
+
+    Raises OutputError.
+    """
+    if known is not None:
+        return known.directory, known.begun_utc
+    directory = RunDirectory.create(parent, order.robot.name, utc)
+    options = {
+        "lanes": order.lanes,
+        "side": order.side.value,
+        "dry_run": order.dry_run,
+        "confirm": ", ".join(sorted(event.value for event in order.confirm)),
+    }
+    write_settings(directory.settings, order.crop, order.robot, options=options)
+    return directory, utc

@@ -1,0 +1,105 @@
+"""The composition root of a run on a robot: the same mission as in simulation, on the wall clock."""
+
+import gc
+from collections.abc import Sequence
+from contextlib import ExitStack
+from dataclasses import dataclass, field
+
+import cv2
+
+from drivers.can_log import LoggedBus
+from drivers.listening_bus import ListeningBus
+from drivers.thorvald import ThorvaldWheels
+from fieldnav.journal.directory import RunDirectory
+from fieldnav.journal.journal import Journal
+from fieldnav.journal.ledger import Ledger
+from fieldnav.journal.summary import Headland, Summary, write_summary
+from fieldnav.messages import CameraName, Side
+from fieldnav.mission.driving import Driving
+from fieldnav.mission.figures import Figures
+from fieldnav.mission.interruption import Interruption
+from fieldnav.mission.loop import Mission
+from fieldnav.mission.operating import Operating
+from fieldnav.mission.pace import Pace, RunClock
+from fieldnav.mission.tick import Observer
+from fieldnav.operator.confirmation import Confirmations
+from fieldnav.operator.desk import Desk
+from fieldnav.operator.request import Requests
+from fieldnav.operator.status_board import StatusBoard
+from fieldnav.preflight.gear import Gear
+from fieldnav.settings.crop import CropProfile
+from fieldnav.settings.robot import Robot
+from states.behaviour import Task
+from states.names import Event
+from states.place import Place
+
+
+@dataclass(frozen=True, slots=True)
+class Order:
+    """Everything that decides a run; `resumed` is the place at which one that was broken off goes on.
+
+    once: end at the first fault instead of waiting for a person.
+    """
+
+    crop: CropProfile
+    robot: Robot
+    lanes: int
+    side: Side
+    dry_run: bool = False
+    once: bool = False
+    confirm: frozenset[Event] = field(default_factory=frozenset)
+    resumed: Place | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Watchers:
+    """Who watches a run and who may ask something of it, beside the desk that every run has."""
+
+    observers: Sequence[Observer] = ()
+    requests: Sequence[Requests] = ()
+
+
+def drive(
+    order: Order, gear: Gear, directory: RunDirectory, journal: Journal, clock: RunClock, watchers: Watchers
+) -> Summary:
+    """Drive the mission to its end, with what has been opened and found well.
+
+    Raises FieldnavError, KeyboardInterrupt after a stop by signal; the wheels then stand.
+    """
+    assert gear.bus, "the pre-flight refuses without a bus"
+    cv2.setNumThreads(1)
+    with ExitStack() as stack:
+        interruption = stack.enter_context(Interruption())
+        ledger = stack.enter_context(Ledger(directory.ledger))
+        desk = stack.enter_context(Desk.open(directory.path.name))
+        append = order.resumed is not None
+        bus = LoggedBus(gear.bus, directory.can_log, order.robot.can.channel, append, clock)
+        stack.callback(bus.shutdown)
+        wheels = ThorvaldWheels(order.robot, ListeningBus(bus) if order.dry_run else bus, order.dry_run)
+        figures = Figures(order.lanes, order.resumed.done if order.resumed else ())
+        board = StatusBoard(directory.path.name, order.lanes)
+        pinholes = {name: order.robot.cameras.get(name).pinhole() for name in CameraName}
+        mission = Mission(
+            order.robot,
+            Task(order.crop, pinholes, order.side, order.lanes),
+            gear.cameras,
+            wheels,
+            journal,
+            [figures, board, *watchers.observers],
+            ledger,
+            Confirmations(order.confirm),
+            commanding=not order.dry_run,
+        )
+        if order.resumed is not None:
+            mission.resume_from(order.resumed)
+        pace = Pace(clock)
+        requests = (desk, *watchers.requests)
+        driving = Driving(mission, Operating(mission), board, bus, requests, pace, clock)
+        gc.collect()
+        gc.freeze()  # what lives for ever need not be looked through again while the robot drives
+        try:
+            driving.run(interruption, order.once)
+        finally:
+            summary = figures.summary(clock(), Headland(), None, pace.health())
+            write_summary(directory.summary, summary)
+        return summary
