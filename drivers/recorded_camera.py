@@ -6,11 +6,14 @@ from typing import Protocol
 import cv2
 import numpy as np
 
+from drivers.shown_source import shown
 from fieldnav.errors import DriverError
+from fieldnav.faults import FaultKind
 from fieldnav.messages import CameraName, Frame, Image
 from fieldnav.settings.camera import CameraSettings
 
 PICTURES = (".jpg", ".jpeg", ".png", ".bmp", ".tif", ".tiff", ".webp")
+COLOURS = 3
 ROUNDING = 1e-6  # of a frame: a time that is a frame's own must not fall short of it
 
 
@@ -72,7 +75,8 @@ class Folder:
     def __init__(self, path: Path) -> None:
         self._paths = sorted(each for each in path.iterdir() if each.suffix.lower() in PICTURES)
         if not self._paths:
-            raise DriverError(f"{path}: holds no picture; allowed are {', '.join(PICTURES)}")
+            said = f"{path}: holds no picture; allowed are {', '.join(PICTURES)}"
+            raise DriverError(said, FaultKind.CAMERA_UNPLUGGED)
 
     def picture(self, index: int) -> Image | None:
         return read_picture(self._paths[index]) if index < len(self._paths) else None
@@ -107,15 +111,18 @@ def read_picture(path: Path) -> Image:
     except cv2.error:  # a head that claims more pixels than OpenCV allocates
         image = None
     if image is None:
-        raise DriverError(f"{path}: is no picture that can be read")
+        raise DriverError(f"{path}: is no picture that can be read", FaultKind.CAMERA_UNPLUGGED)
     return np.asarray(image, dtype=np.uint8)
 
 
 def check_size(image: Image, settings: CameraSettings) -> None:
     """Raise DriverError for a picture that is not of the robot file's size: every metre would be wrong."""
-    height, width = image.shape[:2]
-    if (width, height) != (settings.width_px, settings.height_px):
+    wanted = settings.height_px, settings.width_px, COLOURS
+    if image.shape != wanted:
+        height, width, *colours = image.shape
+        given = f"{width}x{height} px" + ("" if colours == [COLOURS] else " without colours")
         raise DriverError(
-            f"{settings.source}: gives {width}x{height} px; the robot file has width_px {settings.width_px} "
-            f"and height_px {settings.height_px}"
+            f"{shown(settings.source)}: gives {given}; the robot file has width_px {settings.width_px} "
+            f"and height_px {settings.height_px}",
+            FaultKind.CAMERA_SIZE,
         )

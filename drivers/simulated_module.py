@@ -1,6 +1,7 @@
 """One simulated wheel module: what it obeys, as a CANopen node.
 
-The fault switches (`silent`, `steering_stuck`, `faults`) and `reboot` break a module as real ones break.
+The fault switches (`silent`, `muted`, `steering_stuck`, `blocked`, `runaway_mps`, `faults`) and `reboot`
+break a module as real ones break.
 """
 
 from collections.abc import Mapping
@@ -57,7 +58,9 @@ class SimulatedModule:
         }
         self.faults = 0
         self.silent = False
-        self.steering_stuck = False
+        self.muted: frozenset[Kind] = frozenset()  # telegrams that it no longer sends
+        self.steering_stuck = self.blocked = False
+        self.runaway_mps: float | None = None  # so it drives whatever it is told, but for the emergency stop
         self.emergency_stop = False
         self.reboot()
 
@@ -97,9 +100,12 @@ class SimulatedModule:
         wanted_rad = self._wanted_rad if driving else None
         if running and self.mode is Mode.HOME:
             wanted_rad = HOME_RAD
-        self.motion.advance(
-            dt_s, self._wanted_mps if driving else 0.0, None if self.steering_stuck else wanted_rad
-        )
+        wanted_mps = self._wanted_mps if driving else 0.0
+        if self.runaway_mps is not None and not self.emergency_stop:
+            wanted_mps = self.runaway_mps
+        self.motion.advance(dt_s, wanted_mps, None if self.steering_stuck else wanted_rad)
+        if self.blocked:
+            self.motion.speed_mps = 0.0
 
     def obey(self, now_s: float, kind: Kind, values: Mapping[str, float]) -> Mapping[str, float] | None:
         """Act on one telegram; what an SDO request is answered with."""

@@ -61,7 +61,8 @@ class Voice:
         for kind in CYCLES_MS if module.state is NodeState.OPERATIONAL else (Kind.HEARTBEAT,):
             if now_ms >= self._next_ms.setdefault(kind, now_ms):
                 self._next_ms[kind] += self._cycle_ms(kind)
-                said.append((kind, self._values[kind](battery_v)))
+                if kind not in module.muted:
+                    said.append((kind, self._values[kind](battery_v)))
         self._earliest_ms = min(self._next_ms.values())
         return said
 

@@ -3,6 +3,7 @@
 import typer
 
 from fieldnav.cli.bench_missions import navigation, row_ends, switching
+from fieldnav.cli.bench_robust import fuzz
 from fieldnav.cli.bench_sight import detection, speed
 
 bench = typer.Typer(
@@ -15,3 +16,4 @@ bench.command()(navigation)
 bench.command()(switching)
 bench.command("row-ends")(row_ends)
 bench.command()(speed)
+bench.command()(fuzz)

@@ -27,7 +27,7 @@ def patch(image: Image) -> Floats:
     size = (middle.shape[1] // SHRINK, middle.shape[0] // SHRINK)
     small = cv2.resize(middle, size, interpolation=cv2.INTER_AREA)
     blue, green, red = cv2.split(small.astype(np.float32))
-    return np.asarray(cv2.GaussianBlur(2 * green - blue - red, None, SMOOTH_PX))
+    return np.asarray(cv2.GaussianBlur(2 * green - blue - red, (0, 0), SMOOTH_PX))
 
 
 def expected_px(camera: Pinhole, moved: Travelled) -> Floats:

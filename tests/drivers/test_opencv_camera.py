@@ -1,19 +1,18 @@
-"""Cameras that OpenCV opens: the newest frame with its age, never a queue; a source that fails is named."""
+"""The camera of a robot file: recordings are played at their rate; a source that fails is named."""
 
 import os
-import time
 from collections.abc import Iterator
-from itertools import count
 from pathlib import Path
-from queue import Queue
 
 import cv2
 import numpy as np
 import pytest
 
-from drivers.opencv_camera import LiveCamera, open_camera
+from drivers.opencv_camera import open_camera
 from drivers.ports import Camera
+from drivers.shown_source import shown
 from fieldnav.errors import DriverError
+from fieldnav.faults import FaultKind
 from fieldnav.messages import CameraName, Frame, Image
 from fieldnav.settings.camera import CameraSettings
 from fieldnav.settings.loading import load_robot
@@ -21,7 +20,6 @@ from fieldnav.settings.loading import load_robot
 WIDTH_PX, HEIGHT_PX, RATE_HZ = 64, 48, 10.0
 COUNT, STEP = 12, 20
 """Frames of a recording, each a plain grey, and the grey levels from one to the next."""
-PATIENCE_S = 10.0
 
 
 def settings(source: Path | str, width_px: int = WIDTH_PX) -> CameraSettings:
@@ -106,8 +104,10 @@ def test_a_still_picture_is_seen_for_ever_and_never_stale(folder: Path) -> None:
 def test_a_recording_of_another_size_is_refused_naming_both(folder: Path) -> None:
     camera = open_camera(CameraName.FRONT, settings(folder, width_px=80), clock=lambda: 0.0)
 
-    with pytest.raises(DriverError, match="frames: gives 64x48 px; the robot file has width_px 80"):
+    with pytest.raises(DriverError, match="frames: gives 64x48 px; the robot file has width_px 80") as caught:
         camera.latest(0.0)
+
+    assert caught.value.fault is FaultKind.CAMERA_SIZE
 
 
 @pytest.mark.parametrize(
@@ -134,97 +134,11 @@ def test_a_source_that_cannot_be_opened_is_named(
         Path(source).write_bytes(content)
     (tmp_path / "empty").mkdir()
 
-    with pytest.raises(DriverError, match=f"rear camera: .*{words}"):
+    with pytest.raises(DriverError, match=f"rear camera: .*{words}") as caught:
         open_camera(CameraName.REAR, settings(source or "empty"), clock=lambda: 0.0)
 
+    assert caught.value.fault is FaultKind.CAMERA_UNPLUGGED
     assert capfd.readouterr().err == "", "OpenCV adds no words of its own"
-
-
-class Webcam:
-    """A device that gives what the test hands to it, and waits for it as a real one does; None unplugs it."""
-
-    def __init__(self) -> None:
-        self.pictures: Queue[Image | None] = Queue()
-        self.released = False
-
-    def read(self) -> tuple[bool, Image | None]:
-        image = self.pictures.get(timeout=PATIENCE_S)
-        return image is not None, image
-
-    def release(self) -> None:
-        self.released = True
-
-
-class Live:
-    """A live camera on a webcam, and a clock that counts the frames."""
-
-    def __init__(self) -> None:
-        self.webcam, ticks = Webcam(), count()
-        made = settings("/dev/webcam")
-        self.camera = LiveCamera(CameraName.FRONT, made, self.webcam, lambda: float(next(ticks)))
-
-    def newest(self, sequence: int) -> Frame:
-        """The newest frame, once the thread has come so far."""
-        until = time.monotonic() + PATIENCE_S
-        while time.monotonic() < until:
-            frame = self.camera.latest(0.0)
-            if frame is not None and frame.sequence >= sequence:
-                return frame
-        raise AssertionError(f"frame {sequence} never came")
-
-    def failure(self) -> str:
-        """What the camera says in the end."""
-        with pytest.raises(DriverError) as caught:
-            self.newest(sequence=10**6)
-        return str(caught.value)
-
-
-@pytest.fixture
-def live() -> Iterator[Live]:
-    made = Live()
-    yield made
-    made.webcam.pictures.put(None)  # whoever waits for a frame waits no longer
-    made.camera.close()
-
-
-def test_before_its_first_frame_a_device_shows_nothing(live: Live) -> None:
-    assert live.camera.latest(0.0) is None
-
-
-def test_of_a_device_only_the_newest_frame_is_kept_stamped_as_it_came(live: Live) -> None:
-    for index in range(COUNT):
-        live.webcam.pictures.put(grey(STEP * index))
-
-    frame = live.newest(COUNT)
-
-    assert (frame.sequence, index_of(frame), frame.stamp_s) == (COUNT, COUNT - 1, COUNT - 1)
-    assert live.camera.latest(99.0) is frame, "a device that is silent shows how old its frame is"
-
-
-def test_a_device_that_is_unplugged_is_named(live: Live) -> None:
-    live.webcam.pictures.put(grey(0))
-    live.newest(1)
-
-    live.webcam.pictures.put(None)
-
-    assert live.failure() == "front camera: /dev/webcam: gives no more frames"
-
-
-def test_a_device_that_does_not_take_up_the_files_size_is_refused(live: Live) -> None:
-    live.webcam.pictures.put(np.zeros((720, 1280, 3), np.uint8))
-
-    assert "gives 1280x720 px; the robot file has width_px 64 and height_px 48" in live.failure()
-
-
-def test_a_device_is_given_back_when_it_is_closed(live: Live) -> None:
-    live.webcam.pictures.put(grey(0))
-    live.newest(1)
-    live.webcam.pictures.put(grey(0))
-
-    live.webcam.pictures.put(None)
-    live.camera.close()
-
-    assert live.webcam.released
 
 
 def test_a_pipe_is_no_camera(tmp_path: Path) -> None:
@@ -232,3 +146,34 @@ def test_a_pipe_is_no_camera(tmp_path: Path) -> None:
 
     with pytest.raises(DriverError, match="is a pipe"):
         open_camera(CameraName.FRONT, settings(tmp_path / "pipe"), lambda: 0.0)
+
+
+def test_a_pipeline_is_refused_in_one_line_where_opencv_has_no_gstreamer(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setattr(cv2.videoio_registry, "hasBackend", lambda backend: False)
+    pipeline = "rtspsrc location=rtsp://eva:secret@camera/1 user-pw=secret ! decodebin ! appsink"
+
+    with pytest.raises(DriverError) as caught:
+        open_camera(CameraName.FRONT, settings(pipeline), lambda: 0.0)
+
+    said = "rtspsrc location=rtsp://***@camera/1 user-pw=*** ! decodebin ! appsink"
+    assert str(caught.value) == f"front camera: {said}: is a GStreamer pipeline; this OpenCV has no GStreamer"
+
+
+@pytest.mark.parametrize(
+    ("source", "read"),
+    [
+        ("/dev/video0", "/dev/video0"),
+        ("/media/what?@home/drive.mp4", "/media/what?@home/drive.mp4"),
+        ("rtsp://camera:554/stream", "rtsp://camera:554/stream"),
+        ("rtsp://eva:secret@camera:554/stream", "rtsp://***@camera:554/stream"),
+        ("rtsp://eva:sec@re/t@camera/stream", "rtsp://***@camera/stream"),
+        ("http://camera/video?user=eva&pwd=secret", "http://camera/video?***"),
+        ("https://eva:secret@camera/video?token=secret", "https://***@camera/video?***"),
+        ('soup location="http://c/v?pwd=secret" ! appsink', 'soup location="http://c/v?***" ! appsink'),
+        ('rtspsrc user-id=eva user-pw="sec ret" ! appsink', "rtspsrc user-id=eva user-pw=*** ! appsink"),
+    ],
+)
+def test_a_source_is_shown_without_its_password(source: str, read: str) -> None:
+    assert shown(source) == read

@@ -305,3 +305,46 @@ def test_no_document_at_all_brings_more_than_a_settings_error(document: object) 
         parse(CropProfile, yaml.safe_dump(document), "any.yaml")
 
     assert str(caught.value).startswith("any.yaml: ")
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "shown"),
+    [
+        ("length_m:", '"a\\nb":', r"a\nb: 12: there is no such key"),
+        ("demo", '"a\\nb"', r"name: 'a\nb' is not allowed"),
+        ("sugar-beet", '"\\t"', r"crop: unknown crop '\t'"),
+        ("sugar-beet", '"a\\nb.yaml"', r"a\nb.yaml: there is no such file"),
+        ("sugar-beet", '"\\u2028\\u202e"', r"unknown crop '\u2028\u202e'"),
+    ],
+)
+def test_a_line_break_in_a_key_or_a_value_breaks_no_message(
+    old: str, new: str, shown: str, write: Write
+) -> None:
+    assert shown in said(Kind.FIELD, write(TEXT[Kind.FIELD].replace(f"{old}", new)))
+
+
+def test_a_long_name_is_quoted_in_part(write: Write) -> None:
+    assert (
+        len(said(Kind.FIELD, write(TEXT[Kind.FIELD].replace("crop: sugar-beet", f"crop: {'x' * 3000}"))))
+        < 400
+    )
+
+
+@pytest.mark.parametrize(
+    ("options", "key"), [("no", "options"), ("[1]", "options"), ("{host: null}", "options.host")]
+)
+def test_what_may_be_of_several_kinds_is_named_once_with_all_of_them(
+    options: str, key: str, write: Write
+) -> None:
+    text = TEXT[Kind.ROBOT].replace("  channel: can0", f"  channel: can0\n  options: {options}")
+
+    message = said(Kind.ROBOT, write(text))
+
+    assert message.count(f"can.{key}: ") == 1
+    assert "text or a whole number or a number or true or false" in message
+
+
+def test_a_number_that_may_be_left_out_is_said_to_be_one(write: Write) -> None:
+    message = said(Kind.CROP, write(TEXT[Kind.CROP].replace("lane_pitch_m: 1.5", "lane_pitch_m: 9")))
+
+    assert "rows.lane_pitch_m: 9 is not allowed; allowed is a number from 0.5 to 5 or null" in message
