@@ -26,6 +26,7 @@ EXTERNAL_STOP, MOTOR_FAULT = 0x9000, 0x7100
 """Error codes of the emergency telegram (CiA 301)."""
 
 MOST_PER_MILLE = 1000
+HOME_SPEED_BITS, DRIVE_DIRECTION_BITS = 16, 8
 
 
 class Voice:
@@ -104,8 +105,8 @@ class Voice:
         kept = self._module.kept
         return {
             "Part": IdentityPart.CONSTANTS,
-            "HomeSpeed": kept[Parameter.HOME_SPEED],
-            "DriveDirection": kept[Parameter.DRIVE_DIRECTION],
+            "HomeSpeed": _as_signed(kept[Parameter.HOME_SPEED], HOME_SPEED_BITS),
+            "DriveDirection": _as_signed(kept[Parameter.DRIVE_DIRECTION], DRIVE_DIRECTION_BITS),
             "HomeCount": kept[Parameter.HOME_COUNT],
         }
 
@@ -119,3 +120,9 @@ class Voice:
             code = EXTERNAL_STOP if self._module.emergency_stop else MOTOR_FAULT
         values = {"ErrorRegister": int(code != 0), "FaultFlags": int(self._module.fault_flags), "Detail": 0}
         return [(Kind.EMERGENCY, {"ErrorCode": code, **values})]
+
+
+def _as_signed(value: int, bits: int) -> int:
+    """What is left of a 32 bit set-up value in the fewer bits of TPDO4."""
+    half = 1 << bits - 1
+    return (value + half) % (2 * half) - half

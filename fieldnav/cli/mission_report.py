@@ -19,7 +19,7 @@ def report(directory: RunDirectory, summary: Summary) -> Table:
     rows += [
         ("lanes", f"{summary.lanes.done} of {summary.lanes.total}"),
         ("distance", f"{summary.distance_m:.1f} m in {summary.duration_s:.0f} s"),
-        ("speed of simulation", f"{summary.realtime_factor:.1f} x real time, {summary.wall_s:.0f} s"),
+        _pace(summary),
         ("switches", f"{summary.switches.succeeded} of {summary.switches.attempted}"),
         ("faults", str(summary.faults)),
         *(("warning", warning) for warning in summary.warnings),
@@ -28,8 +28,17 @@ def report(directory: RunDirectory, summary: Summary) -> Table:
     if used.mean is not None:
         rows.append(("headland used", f"{used.mean:.2f} m, at most {used.max:.2f} m"))
     if summary.truth:
-        rows += _against_truth(summary.truth)
+        rows += against_truth(summary.truth)
     return table("", ("", ""), rows)
+
+
+def _pace(summary: Summary) -> tuple[str, str]:
+    """How a simulation kept up with the clock, and a robot's loop with its beat."""
+    loop = summary.loop
+    if loop is None:
+        return "speed of simulation", f"{summary.realtime_factor:.1f} x real time, {summary.wall_s:.0f} s"
+    late = f"99 % within {loop.late_p99_ms:.0f} ms, at most {loop.late_max_ms:.0f} ms"
+    return "lateness of the loop", f"{late}, {loop.rounds} rounds"
 
 
 def outcome_of(summary: Summary) -> str:
@@ -51,7 +60,8 @@ def _missed(summary: Summary) -> int:
     return summary.truth.lanes_missed if summary.truth else 0
 
 
-def _against_truth(truth: Truth) -> Rows:
+def against_truth(truth: Truth) -> Rows:
+    """What only a simulation can tell."""
     track, heading = truth.cross_track_cm, truth.heading_deg
     if track.mean is None:
         errors = [("cross-track error", "unknown: nothing was driven within the rows")]

@@ -129,7 +129,7 @@ def _drive(
     from fieldnav.cli.frames import quiet_videos  # noqa: PLC0415 - see _broken_off
     from fieldnav.cli.run_terminal import terminal  # noqa: PLC0415
     from fieldnav.journal.journal import Journal  # noqa: PLC0415
-    from fieldnav.mission.outset import begun, cleared  # noqa: PLC0415
+    from fieldnav.mission.outset import begun, cleared, silenced  # noqa: PLC0415
     from fieldnav.mission.pace import RunClock  # noqa: PLC0415
     from fieldnav.mission.real import drive  # noqa: PLC0415
     from fieldnav.preflight.gear import opened  # noqa: PLC0415
@@ -137,7 +137,8 @@ def _drive(
     quiet_videos()
     now_utc = datetime.now(UTC)
     clock = RunClock(known.begin_s(now_utc) if known else 0.0)
-    with opened(order.robot, clock) as (gear, findings):
+    with opened(order.robot, clock) as (found, findings):
+        gear = silenced(found) if order.dry_run else found
         failed = cleared(order, gear, findings, parent, clock, time.sleep, tell)
         if failed:
             print_error(f"nothing was driven: {'; '.join(f'{each.check}: {each.figure}' for each in failed)}")

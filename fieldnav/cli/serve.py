@@ -11,7 +11,7 @@ from threading import Event
 from types import FrameType
 
 from fieldnav.cli.console import out, table
-from fieldnav.cli.mission_report import _against_truth as against_truth
+from fieldnav.cli.mission_report import against_truth
 from fieldnav.errors import SettingsError
 from fieldnav.messages import CameraName, Side
 from fieldnav.settings.field import FieldSettings

@@ -92,7 +92,7 @@ def last_booking(path: Path) -> Booking | None:
         return None
     except OSError as error:
         raise FieldnavError(f"{path}: cannot be read: {error.strerror}") from error
-    lines = content[: content.rfind(b"\n") + 1].splitlines()
+    lines = content[: content.rfind(b"\n") + 1].split(b"\n")[:-1]
     if not lines:
         return None
     try:

@@ -8,8 +8,8 @@ from fieldnav.mission.interruption import Interruption
 from fieldnav.mission.loop import REST_S, Mission
 from fieldnav.mission.operating import Operating
 from fieldnav.mission.pace import Pace, RunClock
+from fieldnav.mission.status_board import StatusBoard
 from fieldnav.operator.request import Command, Request, Requests
-from fieldnav.operator.status_board import StatusBoard
 from states.names import Event, text
 from states.table import FINISHED
 

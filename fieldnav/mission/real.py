@@ -8,7 +8,6 @@ from dataclasses import dataclass, field
 import cv2
 
 from drivers.can_log import LoggedBus
-from drivers.listening_bus import ListeningBus
 from drivers.thorvald import ThorvaldWheels
 from fieldnav.journal.directory import RunDirectory
 from fieldnav.journal.journal import Journal
@@ -21,11 +20,11 @@ from fieldnav.mission.interruption import Interruption
 from fieldnav.mission.loop import Mission
 from fieldnav.mission.operating import Operating
 from fieldnav.mission.pace import Pace, RunClock
+from fieldnav.mission.status_board import StatusBoard
 from fieldnav.mission.tick import Observer
 from fieldnav.operator.confirmation import Confirmations
 from fieldnav.operator.desk import Desk
 from fieldnav.operator.request import Requests
-from fieldnav.operator.status_board import StatusBoard
 from fieldnav.preflight.gear import Gear
 from fieldnav.settings.crop import CropProfile
 from fieldnav.settings.robot import Robot
@@ -75,7 +74,7 @@ def drive(
         append = order.resumed is not None
         bus = LoggedBus(gear.bus, directory.can_log, order.robot.can.channel, append, clock)
         stack.callback(bus.shutdown)
-        wheels = ThorvaldWheels(order.robot, ListeningBus(bus) if order.dry_run else bus, order.dry_run)
+        wheels = ThorvaldWheels(order.robot, bus, listening=order.dry_run)
         figures = Figures(order.lanes, order.resumed.done if order.resumed else ())
         board = StatusBoard(directory.path.name, order.lanes)
         pinholes = {name: order.robot.cameras.get(name).pinhole() for name in CameraName}

@@ -10,10 +10,10 @@ from fieldnav.errors import FieldnavError
 from fieldnav.faults import FaultKind, Trouble
 from fieldnav.messages import Direction, Motion, Twist
 from fieldnav.mission.gate import Passed
+from fieldnav.mission.status_board import LONGEST_TEXT, MOST_WARNINGS, StatusBoard
 from fieldnav.mission.tick import Tick
 from fieldnav.operator.request import Answer, Command
 from fieldnav.operator.status import Status
-from fieldnav.operator.status_board import LONGEST_TEXT, MOST_WARNINGS, StatusBoard
 from fieldnav.operator.wire import (
     LONGEST_ANSWER_BYTES,
     LONGEST_REQUEST_BYTES,
