@@ -59,7 +59,7 @@ class Declared:
 FAULTS: dict[FaultKind, Declared] = {
     FaultKind.CAMERA_FROZEN: Declared(
         Reaction.HOLD,
-        "the same picture again although the wheels have moved, or for a second",
+        "the same picture again although the wheels have moved, or for 5 s",
         "replug the camera; resume",
     ),
     FaultKind.CAMERA_BLACK: Declared(
