@@ -15,6 +15,7 @@ from fieldnav.journal.ledger import Booking, Ledger
 from fieldnav.journal.resolved import write_settings
 from fieldnav.settings.loading import load_crop, load_robot
 
+FILES = ("--robot", "bonnbot", "--crop", "sugar-beet")
 STARTED = datetime(2026, 5, 1, tzinfo=UTC)
 
 
@@ -53,11 +54,8 @@ def broken_off_run(folder: Path, **changes: object) -> RunDirectory:
         (["--robot", "bonnbot"], "--crop: is not given"),
         (["--robot", "bonnbott", "--crop", "sugar-beet"], "unknown robot 'bonnbott'"),
         (["--robot", "bonnbot", "--crop", "sugarbeet"], "unknown crop 'sugarbeet'"),
-        (
-            ["--robot", "bonnbot", "--crop", "sugar-beet", "--confirm", "swich"],
-            "--confirm: 'swich': allowed are",
-        ),
-        (["--robot", "bonnbot", "--crop", "sugar-beet", "--lanes", "0"], "--lanes"),
+        ([*FILES, "--confirm", "swich"], "--confirm: 'swich': allowed are"),
+        ([*FILES, "--lanes", "0"], "--lanes"),
         (["--resume", "last"], "holds no runs"),
     ],
 )

@@ -1,5 +1,7 @@
 """The beat of the loop, on a clock of the test's own."""
 
+import time
+
 import pytest
 
 from fieldnav.mission.loop import TICK_S
@@ -70,8 +72,6 @@ def test_a_run_that_is_taken_up_goes_on_from_its_last_stamp() -> None:
 def test_a_jump_of_the_wall_clock_is_told_once_and_moves_no_stamp(monkeypatch: pytest.MonkeyPatch) -> None:
     clock = RunClock()
     before_s = clock()
-    import time
-
     true_time = time.time
     monkeypatch.setattr(time, "time", lambda: true_time() + 3600)
 
