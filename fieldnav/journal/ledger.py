@@ -1,10 +1,13 @@
 """The ledger: which lanes are done and where the robot is, on the disk before the wheels obey.
 
-A line is appended at every transition and every few decimetres; only the last whole one counts.
+A line is appended at every transition and every few decimetres; only the last whole one counts. Those at
+transitions are synced before the wheels obey. Those between are handed to the system before they obey, which
+a killed process cannot undo, and synced beside the loop: a power loss may cost the last of them.
 """
 
 import fcntl
 import os
+from concurrent.futures import Future, ThreadPoolExecutor
 from pathlib import Path
 from types import TracebackType
 from typing import Self
@@ -40,7 +43,7 @@ class Booking(BaseModel):
 
 
 class Ledger:
-    """Appends bookings. One process holds a ledger at a time.
+    """Appends bookings. One process holds a ledger at a time; a thread of its own syncs.
 
     Raises OutputError when the file cannot be written, or another process holds it.
     """
@@ -57,20 +60,32 @@ class Ledger:
             self._file.close()
             raise OutputError(f"{path}: another fieldnav drives this run") from error
         self._file.truncate(_whole_lines(path))
+        self._beside = ThreadPoolExecutor(1, thread_name_prefix="ledger")
+        self._syncing: Future[None] | None = None
 
-    def book(self, booking: Booking) -> None:
-        """Append one line; on return it is on the disk. Raises OutputError."""
+    def book(self, booking: Booking, synced: bool = True) -> None:
+        """Append one line; `synced`: on return it is on the disk, else soon after. Raises OutputError."""
         content = booking.model_dump_json(exclude_defaults=True).encode() + b"\n"
         whole = self._file.seek(0, os.SEEK_END)
         try:
             while content:
                 content = content[self._file.write(content) :]
-            os.fdatasync(self._file.fileno())
+            self._sync(synced)
         except OSError as error:
             self._file.truncate(whole)
             raise _unwritable(self._path, error) from error
 
+    def _sync(self, at_once: bool) -> None:
+        """Raises OSError, also that of an earlier sync beside the loop."""
+        if at_once:
+            os.fdatasync(self._file.fileno())
+        elif self._syncing is None or self._syncing.done():
+            done, self._syncing = self._syncing, self._beside.submit(os.fdatasync, self._file.fileno())
+            if done is not None:
+                done.result()
+
     def close(self) -> None:
+        self._beside.shutdown()
         self._file.close()
 
     def __enter__(self) -> Self:

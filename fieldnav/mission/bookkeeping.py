@@ -31,9 +31,9 @@ class Bookkeeping:
         ahead_m, aside_m = self._booked_m
         along_m, sideways_m = self._travel.forward_m - ahead_m, self._travel.sideways_m - aside_m
         if hypot(along_m / ALONG_M, sideways_m / ASIDE_M) >= 1:
-            self.book(now_s, leaf)
+            self.book(now_s, leaf, synced=False)
 
-    def book(self, now_s: float, leaf: Path) -> None:
+    def book(self, now_s: float, leaf: Path, synced: bool = True) -> None:
         """Book the place, in a lane or between two, or that all is done. Raises OutputError."""
         if leaf in LANE_LEAVES:
             self.newest = self._place(leaf)
@@ -41,7 +41,7 @@ class Bookkeeping:
             return
         self._booked_m = (self._travel.forward_m, self._travel.sideways_m)
         if self._ledger is not None:
-            self._ledger.book(self._booking(now_s, self.newest, leaf == FINISHED))
+            self._ledger.book(self._booking(now_s, self.newest, leaf == FINISHED), synced)
 
     def _place(self, leaf: Path) -> Place:
         lane, switch = self._behaviours.lane, self._behaviours.lane.switch

@@ -1,12 +1,12 @@
 """The cameras as the loop sees them: the frames that are new, and how old the newest ones are."""
 
 from collections.abc import Callable, Iterable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from drivers.ports import Camera
 from fieldnav.errors import DriverError
 from fieldnav.faults import FaultKind, Reaction, Trouble
-from fieldnav.messages import CameraName, Frame
+from fieldnav.messages import CameraName, Frame, Motion, Twist
 from fieldnav.mission.frame_rate import FrameRate
 from fieldnav.mission.picture_watch import PictureWatch
 from fieldnav.mission.refusal import FUTURE_S, Sight
@@ -87,6 +87,13 @@ class Eyes:
             return Sight(None, trouble)
         youngest = min(ages, default=0.0)
         return Sight(youngest if youngest < -FUTURE_S else max(ages, default=0.0), trouble)
+
+    def slowed(self, motion: Motion, guides: Iterable[CameraName]) -> Motion:
+        """As fast as the slowest of the cameras that guide lets one see."""
+        share, _ = self.slowness(guides)
+        twist = motion.twist
+        slower = Twist(twist.vx_mps * share, twist.vy_mps * share, twist.yaw_rate_rps * share)
+        return motion if share >= 1 else replace(motion, twist=slower)
 
     def slowness(self, guides: Iterable[CameraName]) -> tuple[float, Trouble | None]:
         """Share of the speed that the slowest camera's rate allows, and what is to be said of it."""

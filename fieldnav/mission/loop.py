@@ -9,7 +9,7 @@ from fieldnav.errors import DriverError, FieldnavError, OutputError
 from fieldnav.faults import FaultKind, Reaction, Trouble
 from fieldnav.journal.journal import Journal
 from fieldnav.journal.ledger import Ledger
-from fieldnav.messages import CameraName, Frame, Motion, Twist, WheelReport
+from fieldnav.messages import CameraName, Frame, Motion, WheelReport
 from fieldnav.mission.bookkeeping import Bookkeeping
 from fieldnav.mission.chronicle import Chronicle
 from fieldnav.mission.eyes import Eyes
@@ -168,7 +168,7 @@ class Mission:
         change = self.go(now_s, step) if step.event is not None else None
         moving = self.machine.leaf in LANE_LEAVES
         self.books.travelled(now_s, self.machine.leaf)
-        motion = self._slowed(step.motion, guides) if moving else Motion()
+        motion = self._eyes.slowed(step.motion, guides) if moving else Motion()
         passed = self._gate.pass_on(now_s, motion, moving, self._eyes.sight(now_s, guides), self._report)
         self._watches.sent(now_s, passed)
         self._chronicle.held(now_s, self.machine.leaf, passed)
@@ -195,13 +195,6 @@ class Mission:
         if step.event is None or not self.confirmations.asks(step.event):
             return step
         return replace(step, event=Event.PAUSE, reason=self.confirmations.question)
-
-    def _slowed(self, motion: Motion, guides: tuple[CameraName, ...]) -> Motion:
-        """As fast as the slowest of the cameras that guide lets one see."""
-        share, _ = self._eyes.slowness(guides)
-        twist = motion.twist
-        slower = Twist(twist.vx_mps * share, twist.vy_mps * share, twist.yaw_rate_rps * share)
-        return motion if share >= 1 else replace(motion, twist=slower)
 
     def _noted(self, now_s: float, step: Step, guides: tuple[CameraName, ...]) -> str:
         """Write down, once each, what a person should know and what changes no state."""

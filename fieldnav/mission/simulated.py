@@ -18,6 +18,7 @@ from fieldnav.evaluation.path import PathObserver
 from fieldnav.evaluation.truth import headland, judge
 from fieldnav.journal.directory import RunDirectory
 from fieldnav.journal.journal import Journal
+from fieldnav.journal.ledger import Ledger
 from fieldnav.journal.resolved import write_settings
 from fieldnav.journal.summary import Summary, write_summary
 from fieldnav.messages import CameraName, Side
@@ -102,7 +103,8 @@ def simulate(run: Run, observers: Sequence[Observer] = ()) -> Simulated:
             watching.append(stack.enter_context(OverlayObserver(directory.overlay, run.robot, run.lanes)))
         pinholes = {name: run.robot.cameras.get(name).pinhole() for name in CameraName}
         task = Task(run.crop, pinholes, run.side, run.lanes)
-        mission = Mission(run.robot, task, cameras, wheels, journal, watching)
+        ledger = stack.enter_context(Ledger(directory.ledger))
+        mission = Mission(run.robot, task, cameras, wheels, journal, watching, ledger)
         started = time.perf_counter()
         try:
             _drive(mission, bus, world, run, started)
