@@ -76,6 +76,7 @@ def test_a_remote_takes_over_and_the_run_pauses_until_it_is_quiet(scene) -> None
     assert "module front_left (node 3) is commanded by another sender" in scene.lines[-1].reason
     scene.wire.standing_within(STOPPING_S)
     run.send_signal(signal.SIGINT)
-    run.communicate(timeout=LIMIT_S)
+    _, complaints = run.communicate(timeout=LIMIT_S)
     assert run.returncode == 130
+    assert complaints.splitlines()[-1] == "error: interrupted"
     assert scene.lines[-1].reason == "interrupted by the operator"
