@@ -60,16 +60,16 @@ FAULTS: dict[FaultKind, Declared] = {
     FaultKind.CAMERA_FROZEN: Declared(
         Reaction.HOLD,
         "the same picture again although the wheels have moved, or for 5 s",
-        "replug the camera; resume",
+        "replug the camera",
     ),
     FaultKind.CAMERA_BLACK: Declared(
-        Reaction.HOLD, "hardly any light in the picture", "look for a cap, a cable, the night; resume"
+        Reaction.HOLD, "hardly any light in the picture", "look for a cap, a cable, the night"
     ),
     FaultKind.CAMERA_WHITE: Declared(
-        Reaction.HOLD, "nearly all of the picture is saturated", "shade the lens, set the exposure; resume"
+        Reaction.HOLD, "nearly all of the picture is saturated", "shade the lens, set the exposure"
     ),
     FaultKind.CAMERA_UNPLUGGED: Declared(
-        Reaction.HOLD, "the source cannot be opened or read; it is opened again", "plug it in; resume"
+        Reaction.HOLD, "the source cannot be opened or read; it is opened again", "plug it in"
     ),
     FaultKind.CAMERA_SLOW: Declared(
         Reaction.SLOW, "frames come at less than half of their rate", "more light, a faster port"
@@ -77,12 +77,12 @@ FAULTS: dict[FaultKind, Declared] = {
     FaultKind.CAMERA_SIZE: Declared(
         Reaction.LATCH,
         "the picture is not of the robot file's size",
-        "set width_px and height_px or the camera right; reset",
+        "set width_px and height_px or the camera right",
     ),
     FaultKind.CAMERA_TURNED: Declared(
         Reaction.LATCH,
         "the ground moves through the picture against what the wheels say",
-        "hang it the right way up, or give front and rear their own sources; reset",
+        "hang it the right way up, or give front and rear their own sources",
     ),
     FaultKind.FRAMES_LATE: Declared(
         Reaction.HOLD,
@@ -93,61 +93,59 @@ FAULTS: dict[FaultKind, Declared] = {
         Reaction.HOLD, "no motion report for timeouts.motion_s", "see to the bus's load, cable and plugs"
     ),
     FaultKind.MODULE_SILENT: Declared(
-        Reaction.LATCH, "nothing of the module for timeouts.module_s", "see to its power and its plug; reset"
+        Reaction.LATCH, "nothing of the module for timeouts.module_s", "see to its power and its plug"
     ),
     FaultKind.MODULE_REBOOTED: Declared(
-        Reaction.LATCH, "its heartbeat leaves operation", "see to its power; check its homing; reset"
+        Reaction.LATCH, "its heartbeat leaves operation", "see to its power; check its homing"
     ),
     FaultKind.MODULE_UNHEALTHY: Declared(
         Reaction.HOLD,
         "a fault in its flags or an emergency telegram",
-        "read its flags; resume once they clear",
+        "read its flags",
     ),
     FaultKind.MODULE_OTHER: Declared(
         Reaction.LATCH,
         "a constant read back is not the robot file's, or it reports a fault",
-        "set the module or the robot file right; reset",
+        "set the module or the robot file right",
     ),
     FaultKind.STEERING_STUCK: Declared(
         Reaction.LATCH,
         "a wheel's angle does not follow its set-point",
-        "look for a stone or a stalk; reset",
+        "look for a stone or a stalk",
     ),
     FaultKind.DRIVE_RUNAWAY: Declared(
         Reaction.LATCH,
         "a wheel turns faster than it was told; the controllers' emergency stop is set as well",
-        "press the emergency stop; do not drive before the module is mended; reset",
+        "press the emergency stop; do not drive before the module is mended",
     ),
     FaultKind.BUS_OFF: Declared(
         Reaction.LATCH,
         "a frame cannot be sent or read; the modules' watchdogs stop them",
-        "see to the bus; reset",
+        "see to the bus",
     ),
     FaultKind.BUS_FLOODED: Declared(
-        Reaction.LATCH, "more frames than a healthy bus carries", "find who sends them; reset"
+        Reaction.LATCH, "more frames than a healthy bus carries", "find who sends them"
     ),
     FaultKind.BUS_GARBLED: Declared(
-        Reaction.LATCH, "a module says again and again what cannot be", "see to cable and termination; reset"
+        Reaction.LATCH, "a module says again and again what cannot be", "see to cable and termination"
     ),
     FaultKind.FOREIGN_COMMAND: Declared(
         Reaction.PAUSE,
         "a drive or steer command that the host did not send; it is left alone while it lasts",
-        "a remote has taken over, or somebody meddles; resume when it is quiet",
+        "a remote has taken over, or somebody meddles",
     ),
-    FaultKind.BATTERY_FLAT: Declared(
-        Reaction.STOP, "its charge is below battery.least_charge", "charge it; run --resume"
-    ),
+    FaultKind.BATTERY_FLAT: Declared(Reaction.STOP, "its charge is below battery.least_charge", "charge it"),
     FaultKind.WALL_CLOCK: Declared(
         Reaction.CONTINUE, "nothing goes by the wall clock; the journal's stamps are the loop's", "none"
     ),
     FaultKind.LOOP_LATE: Declared(
         Reaction.STOP,
         "two rounds further apart than timeouts.loop_s, or time that runs backwards",
-        "find what else loads the computer; resume",
+        "find what else loads the computer",
     ),
-    FaultKind.DISK_FULL: Declared(Reaction.LATCH, "the journal cannot be written", "make room; run --resume"),
+    FaultKind.DISK_FULL: Declared(Reaction.LATCH, "the journal cannot be written", "make room on the disk"),
     FaultKind.STANDS_STILL: Declared(
-        Reaction.STOP, "told to move for 3 s and every wheel stands", "look for what blocks it; resume"
+        Reaction.STOP, "told to move for 3 s and every wheel stands", "look for what blocks it"
     ),
     FaultKind.PROGRAM: Declared(
         Reaction.LATCH, "an exception that nobody expected", "keep the run's directory and report it"

@@ -18,8 +18,8 @@ from states.names import Event, text
 INTERRUPTING = (Event.PAUSE, Event.FAIL, Event.LATCH)
 WHAT_NEXT = {
     Event.PAUSE: "go on with Enter, or `fieldnav ctl resume`",
-    Event.FAIL: "then Enter or `fieldnav ctl resume`; or Ctrl-C, and later `fieldnav run --resume last`",
-    Event.LATCH: "then `fieldnav ctl reset`; or Ctrl-C, and later `fieldnav run --resume last`",
+    Event.FAIL: "go on with Enter or `fieldnav ctl resume`; or Ctrl-C, and later `fieldnav run --resume last`",
+    Event.LATCH: "go on with `fieldnav ctl reset`; or Ctrl-C, and later `fieldnav run --resume last`",
 }
 
 
@@ -35,8 +35,8 @@ class Announcer:
         said = tick.reason or tick.change.event.value
         advice = next((FAULTS[kind].advice for kind in FaultKind if said.startswith(f"{kind.value}:")), "")
         self._console.print(Text(f"{tick.now_s:.1f} s  {text(tick.state)}: {said}", "bold yellow"))
-        what = f"{advice}; {WHAT_NEXT[tick.change.event]}" if advice else WHAT_NEXT[tick.change.event]
-        self._console.print(Text(f"  {what}"))
+        for what in filter(None, (advice, WHAT_NEXT[tick.change.event])):
+            self._console.print(Text(f"  {what}"))
 
 
 @contextmanager
