@@ -2,6 +2,8 @@
 
 import typer
 
+from fieldnav.cli.bench_faults import faults
+from fieldnav.cli.bench_kills import kills
 from fieldnav.cli.bench_missions import navigation, row_ends, switching
 from fieldnav.cli.bench_robust import fuzz
 from fieldnav.cli.bench_sight import detection, speed
@@ -17,3 +19,5 @@ bench.command()(switching)
 bench.command("row-ends")(row_ends)
 bench.command()(speed)
 bench.command()(fuzz)
+bench.command()(kills)
+bench.command()(faults)

@@ -57,14 +57,25 @@ def speed(
     as_json: JsonOption = False,
     as_markdown: MarkdownOption = False,
     threads: ThreadsOption = 1,
+    hour: Annotated[
+        bool,
+        typer.Option("--hour", help="Drive one simulated hour instead: whether memory or cost grows."),
+    ] = False,
 ) -> None:
     """Time what is done to every frame, against the bare primitives it is made of.
 
     Photographs that are absent are left out, and the table says so.
+    With --hour a mission is driven for an hour of its own time, which takes some ten minutes.
     """
     plan = Plan(_folder(data), quick)
     ready_opencv(threads)
-    report_on("speed", partial(_speed, plan), as_json, as_markdown)
+    report_on("speed", partial(_hour if hour else _speed, plan), as_json, as_markdown)
+
+
+def _hour(plan: Plan, progress: Progress) -> Report:
+    from fieldnav.evaluation.speed import hour as measure  # noqa: PLC0415 - loads OpenCV
+
+    return Report(tuple(measure(plan, progress)))
 
 
 def _speed(plan: Plan, progress: Progress) -> Report:

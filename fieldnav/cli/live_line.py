@@ -14,10 +14,10 @@ STATE_WIDTH = 32
 
 
 class LiveLine:
-    """State, lane, rows, distance, speed and real-time factor, redrawn a few times a second."""
+    """State, lane, rows, distance, speed and time, redrawn a few times a second; a simulation's pace, too."""
 
-    def __init__(self, live: Live, lanes: int) -> None:
-        self._live, self._lanes = live, lanes
+    def __init__(self, live: Live, lanes: int, simulated: bool = True) -> None:
+        self._live, self._lanes, self._simulated = live, lanes, simulated
         self._started = time.perf_counter()
         self._drawn = 0.0
         self._distance_m = 0.0
@@ -35,11 +35,12 @@ class LiveLine:
             return
         self._drawn = wall
         twist = tick.passed.motion.twist
+        pace = f"{tick.now_s / (wall - self._started):.1f} x real time" if self._simulated else ""
         line = Text.assemble(
             (f"{text(tick.state):{STATE_WIDTH}}", "bold"),
             f"lane {tick.lane}/{self._lanes}  rows {tick.rows}  {self._distance_m:6.1f} m  ",
             f"{abs(twist.vx_mps) + abs(twist.vy_mps):.2f} m/s  {tick.now_s:6.1f} s  ",
-            f"{tick.now_s / (wall - self._started):.1f} x real time",
+            pace,
             (f"  {self._warning}", "yellow"),
         )
         self._live.update(line, refresh=True)

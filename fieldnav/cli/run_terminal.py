@@ -56,4 +56,4 @@ def terminal(lanes: int, quiet: bool) -> Iterator[Watchers]:
         if keys.here:
             console.print(Text(HELP, "dim"))
         live = stack.enter_context(Live(Text(""), console=console, auto_refresh=False, transient=True))
-        yield Watchers([*watching, LiveLine(live, lanes)], requests)
+        yield Watchers([*watching, LiveLine(live, lanes, simulated=False)], requests)
