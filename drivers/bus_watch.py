@@ -42,6 +42,8 @@ class BusWatch:
 
     def judge(self, now_s: float) -> None:
         """Let the buckets leak. Raises DriverError for a flood of frames or of errors."""
+        if self._judged_s is None:  # what comes first may have waited for any time
+            self._frames = self._errors = 0.0
         passed_s = 0.0 if self._judged_s is None else max(0.0, now_s - self._judged_s)
         self._judged_s = now_s
         self._frames = max(0.0, self._frames - passed_s * self._frames_per_s)

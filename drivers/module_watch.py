@@ -2,7 +2,7 @@
 
 from collections.abc import Collection
 
-from drivers.module_link import MOST_GARBLED, ModuleLink
+from drivers.module_link import MOST_GARBLED, Missing, ModuleLink
 from drivers.thorvald_protocol import FaultFlag, words
 from fieldnav.errors import DriverError
 from fieldnav.faults import FaultKind
@@ -60,5 +60,5 @@ def check_modules(
         if link.missing is not None and now_s - starting_s > START_LIMIT_S:
             raise DriverError(
                 f"{link.name} has not told {link.missing.value} within {START_LIMIT_S:.0f} s",
-                FaultKind.MODULE_SILENT,
+                FaultKind.MODULE_LATE if link.missing is Missing.MOTION else FaultKind.MODULE_SILENT,
             )

@@ -86,7 +86,7 @@ def drive_to_end(run: LaneRun) -> LaneEnding:
     task, witness = Task(run.crop, pinholes, Side.RIGHT, lanes=1), Witness(world)
     with TemporaryDirectory(prefix="fieldnav-") as folder, Journal(Path(folder) / "j", EPOCH) as journal:
         mission = Mission(robot, task, cameras, wheels, journal, [witness])
-        mission.behaviours.lane = LaneMemory(number=1, expected_m=run.expected_m)
+        mission.course.behaviours.lane = LaneMemory(number=1, expected_m=run.expected_m)
         begun_m = witness.place_m()
         _drive(mission, world, field.length_m / (SLOWEST * run.crop.speeds.follow_mps) + SPARE_S)
     return _judged(run, world, witness, witness.place_m() - begun_m)

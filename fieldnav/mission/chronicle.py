@@ -14,6 +14,9 @@ from states.machine import Change
 from states.names import Path, text
 from states.table import LANE_LEAVES
 
+APART_S = 1.0
+"""Holds that follow each other sooner are one: each line costs a write to the disk. Our choice."""
+
 
 class Chronicle:
     """Keeps the journal; an observer that fails is let go, and the journal says so."""
@@ -24,6 +27,7 @@ class Chronicle:
         self._journal, self._observers = journal, list(observers)
         self._behaviours, self._travel = behaviours, travel
         self._held_in: Path | None = None
+        self._held_s = 0.0
         self._because = ""
 
     def changed(self, now_s: float, change: Change, step: Step) -> None:
@@ -32,9 +36,12 @@ class Chronicle:
         self._record(now_s, change.event.value, change.source, change.target, step)
 
     def held(self, now_s: float, leaf: Path, passed: Passed) -> None:
-        """Write down, once a state, that the gate held the wheels although the state wanted to move."""
-        if passed.refused is not None and self._held_in != leaf:
-            self._held_in = leaf
+        """Write down that the gate begins to hold the wheels although the state wants to move."""
+        if passed.refused is None:
+            return
+        again = self._held_in == leaf and now_s - self._held_s < APART_S
+        self._held_in, self._held_s = leaf, now_s
+        if not again:
             self.noted(now_s, "held by the gate", leaf, Step(reason=passed.reason))
 
     def noted(self, now_s: float, event: str, leaf: Path, step: Step) -> None:

@@ -39,7 +39,7 @@ class Driving:
         mission = self._mission
         try:
             mission.start(self._clock())
-            while not (mission.over and (once or self._stopped or mission.machine.leaf == FINISHED)):
+            while not (mission.over and (once or self._stopped or mission.course.machine.leaf == FINISHED)):
                 now_s = self._pace.next()
                 if interruption.asked and not self._stopped:
                     self._stop(now_s, "interrupted by the operator")
@@ -72,7 +72,7 @@ class Driving:
                 refused = self._operating.resume(now_s, by)
             case Command.RESET:
                 refused = self._operating.reset(now_s, by)
-        request.reply(not refused, refused or text(self._mission.machine.leaf))
+        request.reply(not refused, refused or text(self._mission.course.machine.leaf))
 
     def _stop(self, now_s: float, reason: str) -> None:
         self._stopped = True

@@ -1,4 +1,4 @@
-"""The loop: frame to perception to state to gate, once a tick; the only place that fires the machine."""
+"""The loop: frame to perception to state to gate, once a tick."""
 
 from collections.abc import Iterable, Mapping
 from contextlib import suppress
@@ -10,21 +10,17 @@ from fieldnav.faults import FaultKind, Reaction, Trouble
 from fieldnav.journal.journal import Journal
 from fieldnav.journal.ledger import Ledger
 from fieldnav.messages import CameraName, Frame, Motion, WheelReport
-from fieldnav.mission.bookkeeping import Bookkeeping
-from fieldnav.mission.chronicle import Chronicle
+from fieldnav.mission.course import Course
 from fieldnav.mission.eyes import Eyes
 from fieldnav.mission.gate import Gate, Passed
+from fieldnav.mission.refusal import blind
 from fieldnav.mission.tick import Observer
 from fieldnav.mission.travel import Travel
 from fieldnav.mission.watches import Watches
 from fieldnav.operator.confirmation import Confirmations
 from fieldnav.settings.robot import Robot
 from states.behaviour import Observation, Step, Task
-from states.behaviours import Behaviours
-from states.machine import Change, MissionMachine
 from states.names import Event
-from states.place import Place
-from states.table import FINISHED, LANE_LEAVES, LATCHED, RECOVERABLE
 
 TICK_S = 0.02
 """50 Hz, the rate of the wheel commands."""
@@ -61,38 +57,27 @@ class Mission:
         self._gate, self.travel = Gate(wheels, robot), Travel(robot)
         self._eyes = Eyes(cameras, task.cameras, robot)
         self._watches = Watches(robot, task, commanding)
-        self.machine = MissionMachine()
-        self.behaviours = Behaviours(task)
-        self._chronicle = Chronicle(journal, observers, self.behaviours, self.travel)
-        self.books = Bookkeeping(ledger, task, self.behaviours, self.travel)
-        self.confirmations = confirmations or Confirmations()
-        self._report = WheelReport()
-        self._ended_s: float | None = None
+        self.course = Course(task, self.travel, journal, observers, ledger, confirmations)
+        self._frame_s = robot.timeouts.frame_s
         self._now_s: float | None = None
 
     @property
     def over(self) -> bool:
         """Whether nothing more happens without a person: the wheels say they stand, or have had time to."""
-        if self._ended_s is None or self._now_s is None:
+        if self.course.ended_s is None or self._now_s is None:
             return False
-        return self.travel.standing or self._now_s - self._ended_s > REST_S
-
-    def resume_from(self, place: Place) -> None:
-        """Take up a mission that was broken off; what is seen must fit before anything moves."""
-        self.behaviours.resume(place)
-        self.travel.forward_m, self.travel.sideways_m = place.forward_m, place.sideways_m
-        self.books.newest = place
+        return self.travel.standing or self._now_s - self.course.ended_s > REST_S
 
     def start(self, now_s: float) -> None:
         """Bring the wheels up and begin with the checks."""
         try:
             self.wheels.start(now_s)
         except DriverError as error:
-            self.go(now_s, Step(event=Event.START))
+            self.course.go(now_s, Step(event=Event.START))
             self.react(now_s, Trouble(error.fault, str(error)))
             return
-        change = self.go(now_s, Step(event=Event.START))
-        self._chronicle.tell(now_s, self.machine.leaf, change, Step(), NOTHING_SENT)
+        change = self.course.go(now_s, Step(event=Event.START))
+        self.course.chronicle.tell(now_s, self.course.leaf, change, Step(), NOTHING_SENT)
 
     def tick(self, now_s: float) -> None:
         """One round of the loop; times must rise. Whatever goes wrong, the wheels are stopped first.
@@ -102,7 +87,7 @@ class Mission:
         before_s, self._now_s = self._now_s, now_s
         try:
             late = self._watches.lateness(before_s, now_s)
-            if late is not None and self.machine.leaf in LANE_LEAVES:
+            if late is not None and self.course.moving:
                 self.react(now_s, late)
             self._round(now_s)
         except DriverError as error:
@@ -126,56 +111,45 @@ class Mission:
     def end(self, now_s: float, reason: str) -> None:
         """Stop for good on a person's word, from whatever state."""
         self.break_off(now_s, Event.FAIL, reason)
-        self._ended_s = now_s
+        self.course.ended_s = now_s
 
     def note(self, now_s: float, trouble: Trouble) -> None:
         """Write down what changes no state."""
-        self._chronicle.noted(now_s, trouble.fault.value, self.machine.leaf, Step(reason=trouble.said))
+        self.course.chronicle.noted(now_s, trouble.fault.value, self.course.leaf, Step(reason=trouble.said))
 
     def break_off(self, now_s: float, event: Event, reason: str) -> None:
         """Stop the wheels, then go to a state that stands and say why."""
         self.wheels.stop(now_s)
         self._gate.halted()
-        self._report = WheelReport()  # what the wheels do is no longer known
-        self.travel.measure(now_s, self._report)
+        self.travel.measure(now_s, WheelReport())  # what the wheels do is no longer known
         step = Step(event=event, reason=reason)
-        change = self.go(now_s, step) if self.machine.may(event) else None
-        self._chronicle.tell(now_s, self.machine.leaf, change, step, NOTHING_SENT)
-
-    def go(self, now_s: float, step: Step) -> Change:
-        """Fire, write it down, take up the new state: the journal is on the disk before the wheels obey."""
-        assert step.event is not None, "only an event changes the state"
-        self.machine.expected = self.behaviours.lane.resumes
-        change = self.machine.fire(step.event)
-        self._chronicle.changed(now_s, change, step)
-        self.behaviours.enter(change)
-        self.books.book(now_s, change.target)
-        ended = change.target in (FINISHED, RECOVERABLE, LATCHED)
-        self._ended_s = now_s if ended else None
-        return change
+        change = self.course.go(now_s, step) if self.course.machine.may(event) else None
+        self.course.chronicle.tell(now_s, self.course.leaf, change, step, NOTHING_SENT)
 
     def _round(self, now_s: float) -> None:
-        self._report = self.wheels.poll(now_s)
-        self.travel.measure(now_s, self._report)
-        disobedient = self._watches.wheels(now_s, self._report, self.wheels.taken_over)
+        report = self.wheels.poll(now_s)
+        self.travel.measure(now_s, report)
+        disobedient = self._watches.wheels(now_s, report, self.wheels.taken_over)
         if disobedient is not None:
             self.react(now_s, disobedient)
             return
-        guides = self.behaviours.current.cameras
+        guides = self.course.behaviours.current.cameras
         frames = self._eyes.look(now_s, guides, self.travel.pose_at)
-        step = self._asked(self.behaviours.current.step(self._observe(now_s, frames)))
+        step = self.course.asked(self.course.behaviours.current.step(self._observe(now_s, frames)))
+        step = self._explained(now_s, step, guides)
         warning = self._noted(now_s, step, guides)
-        change = self.go(now_s, step) if step.event is not None else None
-        moving = self.machine.leaf in LANE_LEAVES
-        self.books.travelled(now_s, self.machine.leaf)
+        change = self.course.go(now_s, step) if step.event is not None else None
+        moving = self.course.moving
+        self.course.books.travelled(now_s, self.course.leaf)
         motion = self._eyes.slowed(step.motion, guides) if moving else Motion()
-        passed = self._gate.pass_on(now_s, motion, moving, self._eyes.sight(now_s, guides), self._report)
+        passed = self._gate.pass_on(now_s, motion, moving, self._eyes.sight(now_s, guides), report)
         self._watches.sent(now_s, passed)
-        self._chronicle.held(now_s, self.machine.leaf, passed)
-        trouble = self._watches.progress(now_s, passed, self._report, self.travel.standing)
+        self.course.chronicle.held(now_s, self.course.leaf, passed)
+        trouble = self._watches.progress(now_s, passed, report, self.travel.standing)
         if trouble and change is None and moving:
-            change = self.go(now_s, Step(event=EVENTS[trouble.reaction], reason=str(trouble)))
-        self._chronicle.tell(now_s, self.machine.leaf, change, step, passed, warning)
+            self.react(now_s, trouble)
+            return
+        self.course.chronicle.tell(now_s, self.course.leaf, change, step, passed, warning)
 
     def _observe(self, now_s: float, frames: Mapping[CameraName, Frame]) -> Observation:
         return Observation(
@@ -190,17 +164,18 @@ class Mission:
             exposed={name: self.travel.pose_at(frame.stamp_s) for name, frame in frames.items()},
         )
 
-    def _asked(self, step: Step) -> Step:
-        """The step; a pause with a question instead where a person must say yes first."""
-        if step.event is None or not self.confirmations.asks(step.event):
+    def _explained(self, now_s: float, step: Step, guides: tuple[CameraName, ...]) -> Step:
+        """A failure with what is wrong with the cameras, where they do not show anything."""
+        if step.event is not Event.FAIL:
             return step
-        return replace(step, event=Event.PAUSE, reason=self.confirmations.question)
+        trouble = blind(self._eyes.sight(now_s, guides), self._frame_s)
+        return step if trouble is None else replace(step, reason=f"{trouble}; {step.reason}")
 
     def _noted(self, now_s: float, step: Step, guides: tuple[CameraName, ...]) -> str:
         """Write down, once each, what a person should know and what changes no state."""
-        leaf = self.machine.leaf
+        leaf = self.course.leaf
         warnings = []
         for event, found in self._watches.notes(leaf, step, self.travel.forward_m, self._eyes, guides):
-            self._chronicle.noted(now_s, event, leaf, found)
+            self.course.chronicle.noted(now_s, event, leaf, found)
             warnings.append(found.reason)
         return "; ".join(warnings)

@@ -4,15 +4,18 @@ from dataclasses import dataclass
 from math import hypot
 
 from fieldnav.messages import Floats, Frame
+from fieldnav.mission.sudden_turn import textured
 from fieldnav.odometry import Pose
 from fieldnav.perception.seen_motion import agreement, expected_px, patch
 from fieldnav.perception.sidestep.wheel_motion import travelled
 from fieldnav.pinhole import Pinhole
 
-LEAST_M, MOST_M = 0.02, 0.12
-"""Of driving from one picture to the other: less is lost in shaking, more has left the patch."""
-CLEAR = 0.5
-"""Of the expected motion, seen along it: at least this is a vote."""
+LEAST_M, MOST_M = 0.02, 0.08
+"""Of driving from one picture to the other: less is lost in shaking; after more, plants a row's spacing apart
+may be taken for each other, and the ground then seems to go back."""
+CLEAR, MOST = 0.5, 2.0
+"""Of the expected motion, seen along it: at least the first is a vote, but against only up to the second,
+beyond which two pictures have nothing in common."""
 AGAINST = 4
 """Votes against more than for it that are believed."""
 TRUSTED = 4
@@ -51,10 +54,13 @@ class MotionVote:
     def _count(self, frame: Frame, before: _Before, pose: Pose) -> None:
         now = _Before(patch(frame.image), pose)
         moved = travelled(before.pose, pose, frame.camera)
-        seen = agreement(before.patch, now.patch, expected_px(self._camera, moved))
+        seen = 0.0
+        if textured(before.patch).size and textured(now.patch).size:
+            # Copies, for OpenCV weighs the pictures that it is given in place.
+            seen = agreement(before.patch.copy(), now.patch.copy(), expected_px(self._camera, moved))
         if seen >= CLEAR:
             self._votes = min(self._votes + 1, TRUSTED)
-        elif seen <= -CLEAR:
+        elif -MOST <= seen <= -CLEAR:
             self._votes = min(self._votes, 0) - 1  # long trust must not hide what has just happened
         self._before = None if self._votes >= TRUSTED else now
         self._compared_at = pose

@@ -25,46 +25,46 @@ class Operating:
     def watch(self) -> None:
         """Once a round: remember where the robot was when it was last driving by itself."""
         travel = self._mission.travel
-        if self._mission.machine.leaf in LANE_LEAVES:
+        if self._mission.course.machine.leaf in LANE_LEAVES:
             speed_mps = hypot(travel.twist.vx_mps, travel.twist.vy_mps)
             self._left = (travel.forward_m, travel.sideways_m)
             self._allowed_m = PUSHED_M + speed_mps**2 / (2 * SLOWEST_BRAKING_MPS2)
 
     def pause(self, now_s: float, by: str = "by the operator") -> str:
         mission = self._mission
-        if not mission.machine.may(Event.PAUSE):
-            return f"there is nothing to pause in {text(mission.machine.leaf)}"
-        mission.go(now_s, Step(event=Event.PAUSE, reason=f"paused {by}"))
+        if not mission.course.machine.may(Event.PAUSE):
+            return f"there is nothing to pause in {text(mission.course.machine.leaf)}"
+        mission.course.go(now_s, Step(event=Event.PAUSE, reason=f"paused {by}"))
         return ""
 
     def resume(self, now_s: float, by: str = "by the operator") -> str:
         """Go on where the mission was interrupted; also the yes to a question."""
         mission = self._mission
-        if not mission.machine.may(Event.RESUME) or mission.machine.leaf in LANE_LEAVES:
-            return f"there is nothing to resume in {text(mission.machine.leaf)}"
+        if not mission.course.machine.may(Event.RESUME) or mission.course.machine.leaf in LANE_LEAVES:
+            return f"there is nothing to resume in {text(mission.course.machine.leaf)}"
         if mission.wheels.taken_over:
             return "somebody else commands the wheels"
         if self._moved_m > self._allowed_m:
             return f"the robot was moved by {self._moved_m:.2f} m meanwhile: reset lets it look for its place"
-        mission.confirmations.grant()
-        mission.go(now_s, Step(event=Event.RESUME, reason=f"resumed {by}"))
+        mission.course.confirmations.grant()
+        mission.course.go(now_s, Step(event=Event.RESUME, reason=f"resumed {by}"))
         return ""
 
     def reset(self, now_s: float, by: str = "by the operator") -> str:
         """Release the modules and begin again with the checks, at the place that the ledger has."""
         mission = self._mission
-        if mission.machine.leaf == FINISHED or not mission.machine.may(Event.RESET):
-            return f"there is nothing to reset in {text(mission.machine.leaf)}"
+        if mission.course.machine.leaf == FINISHED or not mission.course.machine.may(Event.RESET):
+            return f"there is nothing to reset in {text(mission.course.machine.leaf)}"
         if mission.wheels.taken_over:
             return "somebody else commands the wheels"
         try:
             mission.wheels.release_emergency_stop(now_s)
         except DriverError as error:
             return str(error)
-        mission.confirmations.withdraw()
-        mission.go(now_s, Step(event=Event.RESET, reason=f"reset {by}"))
-        if mission.books.newest is not None:
-            mission.resume_from(mission.books.newest)
+        mission.course.confirmations.withdraw()
+        mission.course.go(now_s, Step(event=Event.RESET, reason=f"reset {by}"))
+        if mission.course.books.newest is not None:
+            mission.course.resume_from(mission.course.books.newest)
         mission.start(now_s)
         return ""
 

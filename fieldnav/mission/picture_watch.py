@@ -9,6 +9,7 @@ from fieldnav.errors import DriverError
 from fieldnav.faults import FaultKind, Trouble
 from fieldnav.messages import Frame
 from fieldnav.mission.motion_vote import MotionVote
+from fieldnav.mission.sudden_turn import SuddenTurn
 from fieldnav.odometry import Pose
 from fieldnav.pinhole import Pinhole
 
@@ -27,7 +28,7 @@ class PictureWatch:
 
     def __init__(self, camera: Pinhole) -> None:
         self._camera = camera
-        self._vote = MotionVote(camera)
+        self._vote, self._turn = MotionVote(camera), SuddenTurn()
         self._sample: NDArray[np.uint8] | None = None
         self._changed_s = 0.0
         self._changed_at = Pose()
@@ -46,6 +47,11 @@ class PictureWatch:
             )
         sample = frame.image[::EVERY_PX, ::EVERY_PX]
         found = self._unlit(frame, float(sample.mean())) or self._frozen(frame, sample, pose)
+        if found is None and self._turn.happened(frame, pose):
+            raise DriverError(
+                f"{frame.camera.value} camera: from one frame to the next its picture stands upside down",
+                FaultKind.CAMERA_TURNED,
+            )
         if found is None and self._vote.against(frame, pose):
             raise DriverError(
                 f"{frame.camera.value} camera: the ground moves against what the wheels say; it hangs upside "

@@ -90,7 +90,7 @@ def drive(
             commanding=not order.dry_run,
         )
         if order.resumed is not None:
-            mission.resume_from(order.resumed)
+            mission.course.resume_from(order.resumed)
         pace = Pace(clock)
         requests = (desk, *watchers.requests)
         driving = Driving(mission, Operating(mission), board, bus, requests, pace, clock)

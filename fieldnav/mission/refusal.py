@@ -30,10 +30,11 @@ def refusal(
     """
     if not all(map(isfinite, (twist.vx_mps, twist.vy_mps, twist.yaw_rate_rps))):
         return Trouble(FaultKind.PROGRAM, f"the wanted twist is not finite: {twist}")
-    return _blind(sight, timeouts.frame_s) or _module_refusal(now_s, report, timeouts.motion_s)
+    return blind(sight, timeouts.frame_s) or _module_refusal(now_s, report, timeouts.motion_s)
 
 
-def _blind(sight: Sight, limit_s: float) -> Trouble | None:
+def blind(sight: Sight, limit_s: float) -> Trouble | None:
+    """Why nothing may be gone by what is seen; None where it may."""
     said = _too_old(sight.age_s, limit_s)
     if said and sight.trouble:
         return Trouble(sight.trouble.fault, f"{sight.trouble.said}; {said}")

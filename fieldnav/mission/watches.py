@@ -1,6 +1,7 @@
 """All that is watched over in a round of the loop, beside what the states judge and the driver raises."""
 
 from collections.abc import Iterator
+from math import radians
 
 from fieldnav.faults import FaultKind, Trouble
 from fieldnav.messages import CameraName, WheelReport
@@ -22,7 +23,7 @@ class Watches:
         self._loop_s = robot.timeouts.loop_s
         self._least_percent = robot.battery.least_charge
         self._camera_watch = CameraWatch(task, robot.camera_limits)
-        self._wheel_watch, self._progress = WheelWatch(), Progress()
+        self._wheel_watch, self._progress = WheelWatch(radians(robot.limits.steering_aligned_deg)), Progress()
         self._slow = False
 
     def lateness(self, before_s: float | None, now_s: float) -> Trouble | None:

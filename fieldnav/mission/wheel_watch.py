@@ -10,12 +10,15 @@ from fieldnav.mission.gate import Passed
 FAR_RAD, FAR_S = radians(12), 0.6
 """Steering further from its set-point than this for so long is stuck: set-points move slower than modules
 turn, so that a healthy wheel lags by 9 degrees at most. Our choice."""
-OFF_RAD, OFF_S = radians(5), 2.5
-"""And so is one that is a little off for long."""
+OFF_SHARE, OFF_S = 0.9, 2.5
+"""And so is one that is a little off for long: of the angle from which on the gate lets no wheel drive, or
+the robot would wait for it for ever."""
 SLOWEST_RAMP_MPS2 = 0.75
 """A module slows down at least so fast; half of what public simulators have. Our choice."""
 RUNAWAY_MPS, RUNAWAY_S = 0.15, 0.15
 """So much beyond what it was told, for so long: seven reports in a row. Our choice."""
+FRESH_S = 0.1
+"""An older report tells nothing of what the wheel does now: five were lost. Our choice."""
 
 
 @dataclass(slots=True)
@@ -32,7 +35,9 @@ class _Told:
 class WheelWatch:
     """Remembers what was sent, and holds the reports against it."""
 
-    def __init__(self) -> None:
+    def __init__(self, steering_aligned_rad: float) -> None:
+        """steering_aligned_rad: wheels within this of their angles count as turned."""
+        self._aligned_rad = steering_aligned_rad
         self._told = {wheel: _Told() for wheel in Wheel}
         self._setpoints: dict[Wheel, WheelSetpoint] = {}
         self._sent_s: float | None = None
@@ -51,12 +56,15 @@ class WheelWatch:
 
     def forget(self) -> None:
         """Somebody else moved the wheels: nothing that was sent counts any longer."""
-        self.__init__()  # type: ignore[misc]
+        self.__init__(self._aligned_rad)  # type: ignore[misc]
 
     def trouble(self, now_s: float, report: WheelReport) -> Trouble | None:
         """The first wheel that does not obey."""
         for wheel, module in report.modules.items():
             told = self._told[wheel]
+            if now_s - module.stamp_s > FRESH_S:
+                told.runs_since_s = told.far_since_s = told.off_since_s = None
+                continue
             found = self._runs_away(now_s, wheel, told, module.speed_mps)
             found = found or self._stuck(now_s, wheel, told, module.steering_rad)
             if found is not None:
@@ -75,7 +83,7 @@ class WheelWatch:
         point = self._setpoints.get(wheel)
         off_rad = abs(point.steering_rad - steering_rad) if point else 0.0
         told.far_since_s = since(told.far_since_s, now_s, off_rad > FAR_RAD)
-        told.off_since_s = since(told.off_since_s, now_s, off_rad > OFF_RAD)
+        told.off_since_s = since(told.off_since_s, now_s, off_rad > OFF_SHARE * self._aligned_rad)
         far = told.far_since_s is not None and now_s - told.far_since_s >= FAR_S
         off = told.off_since_s is not None and now_s - told.off_since_s >= OFF_S
         if not (far or off):

@@ -121,7 +121,7 @@ class Rig:
 
     def proposes(self, event: Event) -> None:
         """Let the present state propose an event in the next round."""
-        self.mission.behaviours.current = Proposing(event)
+        self.mission.course.behaviours.current = Proposing(event)
 
     def coast(self, seconds: float) -> None:
         """Let the modules go on without the host."""

@@ -17,7 +17,7 @@ from states.table import LATCHED, RECOVERABLE
 def test_a_camera_that_is_gone_stops_the_wheels_and_latches(rig) -> None:
     rig.cameras[CameraName.FRONT].broken = True
     rig.run(1.0)
-    assert rig.mission.machine.leaf == LATCHED
+    assert rig.mission.course.machine.leaf == LATCHED
     assert rig.fastest_mps() == 0
     assert "the source is gone" in rig.lines()[-1].reason
 
@@ -28,18 +28,18 @@ def test_a_frozen_camera_stops_the_wheels_and_says_how_old_its_frame_is(rig) -> 
     assert rig.fastest_mps() == 0
     assert any("s old" in line.reason for line in rig.lines())
     rig.run(2.0)
-    assert rig.mission.machine.leaf == RECOVERABLE
+    assert rig.mission.course.machine.leaf == RECOVERABLE
     assert "the wheels were held for 2.0 s" in rig.lines()[-1].reason
 
 
 def test_an_error_in_the_program_stops_the_wheels_before_it_is_told(rig) -> None:
     rig.cameras[CameraName.FRONT].image = np.zeros((2, 2), np.uint8)  # no colour image at all
-    rig.mission.behaviours.current = _Raising()
+    rig.mission.course.behaviours.current = _Raising()
     with pytest.raises(FieldnavError, match="broke off: ZeroDivisionError"):
         rig.run(0.1)
     rig.coast(1.0)
     assert rig.fastest_mps() == 0
-    assert rig.mission.machine.leaf == LATCHED
+    assert rig.mission.course.machine.leaf == LATCHED
     assert "ZeroDivisionError" in rig.lines()[-1].reason
 
 
@@ -63,7 +63,7 @@ def test_a_silent_module_ends_the_mission_only_after_time_to_stop(rig) -> None:
     next(iter(rig.modules.modules.values())).silent = True
     while not rig.mission.over:
         rig.run(TICK_S)
-    assert rig.mission.machine.leaf == LATCHED
+    assert rig.mission.course.machine.leaf == LATCHED
     others = list(rig.modules.wheel_states().values())[1:]
     assert max(abs(wheel.speed_mps) for wheel in others) == 0
 
@@ -71,7 +71,7 @@ def test_a_silent_module_ends_the_mission_only_after_time_to_stop(rig) -> None:
 def test_stuck_wheels_are_a_fault_that_says_so(rig) -> None:
     _hold_still(rig)
     rig.run(4.5)
-    assert rig.mission.machine.leaf == RECOVERABLE, rig.lines()[-1].reason
+    assert rig.mission.course.machine.leaf == RECOVERABLE, rig.lines()[-1].reason
     assert "stand still" in rig.lines()[-1].reason
 
 

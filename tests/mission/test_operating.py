@@ -18,12 +18,12 @@ def test_a_pause_stops_the_wheels_and_a_resume_goes_on_where_it_was(rig) -> None
 
     assert operating.pause(rig.now_s) == ""
     rig.run(1.5)
-    assert rig.mission.machine.leaf == PAUSED
+    assert rig.mission.course.machine.leaf == PAUSED
     assert rig.fastest_mps() == 0
     assert operating.resume(rig.now_s) == ""
     rig.run(1.0)
 
-    assert Follow.TRACKING in rig.mission.machine.leaf
+    assert Follow.TRACKING in rig.mission.course.machine.leaf
     assert rig.fastest_mps() > 0.2
 
 
@@ -49,7 +49,7 @@ def test_a_robot_that_was_moved_meanwhile_is_not_resumed_before_it_has_looked_fo
     refused = operating.resume(rig.now_s)
 
     assert "was moved by 0.6" in refused and "reset" in refused
-    assert rig.mission.machine.leaf == PAUSED
+    assert rig.mission.course.machine.leaf == PAUSED
     assert operating.reset(rig.now_s) == ""
     rig.run(1.5)
     assert text(RESUMING) in [line.target for line in rig.lines()]
@@ -59,14 +59,14 @@ def test_a_reset_leads_from_a_latched_fault_to_the_place_in_the_ledger(rig) -> N
     operating = Operating(rig.mission)
     rig.mission.break_off(rig.now_s, Event.LATCH, "drive runs away")
     rig.run(1.0)
-    assert rig.mission.machine.leaf == LATCHED
+    assert rig.mission.course.machine.leaf == LATCHED
 
     assert operating.reset(rig.now_s) == ""
     rig.run(2.0)
 
     events = [line.event for line in rig.lines()]
     assert events[-4:] == ["reset", "start", "resume", "place fits"]
-    assert Follow.TRACKING in rig.mission.machine.leaf
+    assert Follow.TRACKING in rig.mission.course.machine.leaf
 
 
 def test_a_reset_releases_the_emergency_stop_that_a_runaway_wheel_has_caused(rig) -> None:
@@ -89,7 +89,7 @@ def test_nothing_is_resumed_while_a_remote_commands_the_wheels(rig) -> None:
     rig.far.send(wire_layout().frame(rig.now_s, 3, Kind.DRIVE, values))
     rig.run(0.1)
 
-    assert rig.mission.machine.leaf == PAUSED
+    assert rig.mission.course.machine.leaf == PAUSED
     assert "foreign command: module front_left (node 3)" in rig.lines()[-1].reason
     assert "somebody else commands the wheels" in operating.resume(rig.now_s)
     rig.run(1.2)
@@ -98,8 +98,8 @@ def test_nothing_is_resumed_while_a_remote_commands_the_wheels(rig) -> None:
 
 def test_a_mission_that_has_finished_is_not_begun_again(rig) -> None:
     for event in (Event.LANE_ENDED, Event.LAST_LANE_LEFT):
-        rig.mission.machine.fire(event)
-    assert rig.mission.machine.leaf == FINISHED
+        rig.mission.course.machine.fire(event)
+    assert rig.mission.course.machine.leaf == FINISHED
 
     assert "nothing to reset in Finished" in Operating(rig.mission).reset(rig.now_s)
 
@@ -110,16 +110,16 @@ def test_what_must_be_confirmed_waits_for_a_yes(rig_with, word: str) -> None:
     operating = Operating(rig.mission)
     asked = {"exit": Event.LANE_ENDED, "switch": Event.LANE_LEFT}[word]
     if word == "switch":
-        rig.mission.go(rig.now_s, Step(event=Event.LANE_ENDED))
+        rig.mission.course.go(rig.now_s, Step(event=Event.LANE_ENDED))
     operating.watch()
     rig.proposes(asked)
 
     rig.run(TICK_S)
-    assert rig.mission.machine.leaf == PAUSED
+    assert rig.mission.course.machine.leaf == PAUSED
     assert "resume says yes" in rig.lines()[-1].reason
     assert operating.resume(rig.now_s) == ""
     rig.proposes(asked)
     rig.run(TICK_S)
 
-    after = rig.mission.machine.leaf
+    after = rig.mission.course.machine.leaf
     assert Phase.EXIT in after if word == "exit" else Sidestep.ORIENTING in after

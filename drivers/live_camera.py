@@ -1,0 +1,148 @@
+"""A live camera: a thread takes every frame as it comes, and opens the source again when it fails."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from threading import Event, Thread
+from typing import Any, Protocol
+
+import cv2
+import numpy as np
+
+from drivers.recorded_camera import check_size
+from drivers.shown_source import shown
+from fieldnav.errors import DriverError
+from fieldnav.faults import FaultKind
+from fieldnav.messages import CameraName, Frame
+from fieldnav.settings.camera import CameraSettings
+
+CLOSING_S = 3.0
+"""So long closing waits for a source that is about to give a frame; longer than OpenCV waits for one."""
+
+
+class Device(Protocol):
+    """What a live camera needs of OpenCV's VideoCapture."""
+
+    def read(self) -> tuple[bool, Any]:
+        """Wait for the next frame; whether there is one, and the frame."""
+        ...
+
+    def release(self) -> None: ...
+
+
+@dataclass(frozen=True, slots=True)
+class Pauses:
+    """Between attempts to open a source again: each is twice the one before, up to the longest."""
+
+    first_s: float = 0.5
+    longest_s: float = 5.0
+
+    def after(self, pause_s: float) -> float:
+        """The pause that follows one of `pause_s` when nothing has come of it."""
+        return min(2 * pause_s, self.longest_s)
+
+
+PAUSES = Pauses()
+
+
+@dataclass(frozen=True, slots=True)
+class Trouble:
+    """Why there is no frame."""
+
+    said: str
+    fault: FaultKind
+
+
+class LiveCamera:
+    """The Camera port over a device that `opener` opens: the newest frame alone is kept.
+
+    A frame's stamp is when it had come, by `clock`, less `latency_s` of the settings. The constructor raises
+    what `opener` raises, a DriverError; later the source is opened again for as long as it takes.
+    """
+
+    def __init__(
+        self,
+        name: CameraName,
+        settings: CameraSettings,
+        opener: Callable[[], Device],
+        clock: Callable[[], float],
+        pauses: Pauses = PAUSES,
+    ) -> None:
+        self._name, self._settings, self._clock, self._pauses = name, settings, clock, pauses
+        self._opener, self._source = opener, shown(settings.source)
+        self._newest: Frame | Trouble | None = None  # one value, so that a reader never sees half of a change
+        self._sequence = 0
+        self._closing = Event()
+        self._thread = Thread(target=self._run, args=(opener(),), name=f"{name.value} camera", daemon=True)
+        self._thread.start()
+
+    def latest(self, now_s: float) -> Frame | None:
+        """The newest frame; it may have come since `now_s` was read, by less than the gate allows.
+
+        Raises DriverError, its fault CAMERA_UNPLUGGED, CAMERA_SIZE or PROGRAM, until the next good frame.
+        """
+        alive, newest = self._thread.is_alive(), self._newest  # in this order: the last it does is to say why
+        if not alive and not isinstance(newest, Trouble):
+            newest = Trouble(f"{self._source}: is closed", FaultKind.PROGRAM)
+        if isinstance(newest, Trouble):
+            raise DriverError(f"{self._name.value} camera: {newest.said}", newest.fault)
+        return newest
+
+    def close(self) -> None:
+        """End the thread, which gives the device back; one that a device holds up ends once it is let go."""
+        self._closing.set()
+        self._thread.join(CLOSING_S)
+
+    def _run(self, device: Device) -> None:
+        try:
+            self._attend(device)
+        except BaseException as error:  # a thread has nobody above it to tell
+            said = f"{self._source}: its thread broke off: {type(error).__name__}: {error}"
+            self._newest = Trouble(said, FaultKind.PROGRAM)
+
+    def _attend(self, device: Device | None) -> None:
+        """Take frames; when no more come open the source again after a pause, until closed."""
+        pause_s = self._pauses.first_s
+        while True:
+            before = self._sequence
+            if device is not None:
+                self._take_all(device)
+            if self._sequence > before:
+                pause_s = self._pauses.first_s
+            if self._closing.wait(pause_s):
+                return
+            pause_s = self._pauses.after(pause_s)
+            device = self._opened_again()
+
+    def _take_all(self, device: Device) -> None:
+        """Take frames until there are no more or the camera is closed, and give the device back."""
+        try:
+            while not self._closing.is_set():
+                whole, image = device.read()
+                if not whole:
+                    raise DriverError(f"{self._source}: gives no more frames", FaultKind.CAMERA_UNPLUGGED)
+                self._take(image, self._clock())
+        except (DriverError, cv2.error) as error:
+            self._fail(error)
+        finally:
+            device.release()
+
+    def _take(self, image: Any, arrived_s: float) -> None:
+        self._sequence += 1
+        taken, stamp_s = np.asarray(image, dtype=np.uint8), arrived_s - self._settings.latency_s
+        try:
+            check_size(taken, self._settings)
+        except DriverError as error:
+            self._newest = Trouble(str(error), error.fault)
+        else:
+            self._newest = Frame(self._name, self._sequence, stamp_s, taken)
+
+    def _opened_again(self) -> Device | None:
+        try:
+            return self._opener()
+        except (DriverError, cv2.error) as error:
+            self._fail(error)
+            return None
+
+    def _fail(self, error: Exception) -> None:
+        said = str(error) if isinstance(error, DriverError) else f"{self._source}: cannot be read"
+        self._newest = Trouble(f"{said}; it is opened again and again", FaultKind.CAMERA_UNPLUGGED)

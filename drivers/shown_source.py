@@ -1,0 +1,16 @@
+"""A camera's source as people may read it: without what may be a password."""
+
+import re
+
+PIPED = " ! "
+"""What stands between two elements of a GStreamer pipeline, and in no name of a device or a file."""
+HIDDEN = "***"
+CREDENTIALS, QUERY = re.compile(r"(?<=://)\S*@"), re.compile(r"(://[^\s?]*\?)[^\s\"']+")
+SECRET = re.compile(r"\b([\w-]*(?:pw|pass|password|token|secret))\s*=\s*(\"[^\"]*\"|\S+)", re.IGNORECASE)
+"""A property of an element of a pipeline: user-pw of rtspsrc is one."""
+
+
+def shown(source: str) -> str:
+    """The source; of a URL neither user and password nor the query, of a pipeline no secret property."""
+    source = QUERY.sub(rf"\g<1>{HIDDEN}", CREDENTIALS.sub(f"{HIDDEN}@", source))
+    return SECRET.sub(rf"\g<1>={HIDDEN}", source) if PIPED in source else source
