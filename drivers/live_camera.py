@@ -11,7 +11,7 @@ import numpy as np
 from drivers.recorded_camera import check_size
 from drivers.shown_source import shown
 from fieldnav.errors import DriverError
-from fieldnav.faults import FaultKind
+from fieldnav.faults import FaultKind, Trouble
 from fieldnav.messages import CameraName, Frame
 from fieldnav.settings.camera import CameraSettings
 
@@ -44,14 +44,6 @@ class Pauses:
 PAUSES = Pauses()
 
 
-@dataclass(frozen=True, slots=True)
-class Trouble:
-    """Why there is no frame."""
-
-    said: str
-    fault: FaultKind
-
-
 class LiveCamera:
     """The Camera port over a device that `opener` opens: the newest frame alone is kept.
 
@@ -82,7 +74,7 @@ class LiveCamera:
         """
         alive, newest = self._thread.is_alive(), self._newest  # in this order: the last it does is to say why
         if not alive and not isinstance(newest, Trouble):
-            newest = Trouble(f"{self._source}: is closed", FaultKind.PROGRAM)
+            newest = Trouble(FaultKind.PROGRAM, f"{self._source}: is closed")
         if isinstance(newest, Trouble):
             raise DriverError(f"{self._name.value} camera: {newest.said}", newest.fault)
         return newest
@@ -97,7 +89,7 @@ class LiveCamera:
             self._attend(device)
         except BaseException as error:  # a thread has nobody above it to tell
             said = f"{self._source}: its thread broke off: {type(error).__name__}: {error}"
-            self._newest = Trouble(said, FaultKind.PROGRAM)
+            self._newest = Trouble(FaultKind.PROGRAM, said)
 
     def _attend(self, device: Device | None) -> None:
         """Take frames; when no more come open the source again after a pause, until closed."""
@@ -132,7 +124,7 @@ class LiveCamera:
         try:
             check_size(taken, self._settings)
         except DriverError as error:
-            self._newest = Trouble(str(error), error.fault)
+            self._newest = Trouble(error.fault, str(error))
         else:
             self._newest = Frame(self._name, self._sequence, stamp_s, taken)
 
@@ -145,4 +137,4 @@ class LiveCamera:
 
     def _fail(self, error: Exception) -> None:
         said = str(error) if isinstance(error, DriverError) else f"{self._source}: cannot be read"
-        self._newest = Trouble(f"{said}; it is opened again and again", FaultKind.CAMERA_UNPLUGGED)
+        self._newest = Trouble(FaultKind.CAMERA_UNPLUGGED, f"{said}; it is opened again and again")
