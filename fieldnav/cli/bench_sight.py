@@ -75,7 +75,7 @@ def speed(
 def _hour(plan: Plan, progress: Progress) -> Report:
     from fieldnav.evaluation.speed import hour as measure  # noqa: PLC0415 - loads OpenCV
 
-    return Report(tuple(measure(plan, progress)))
+    return measure(plan, progress)
 
 
 def _speed(plan: Plan, progress: Progress) -> Report:

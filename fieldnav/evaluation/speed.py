@@ -2,16 +2,24 @@
 
 from collections.abc import Callable
 
-from fieldnav.evaluation.benchmark import Figure, Plan, Progress
+from fieldnav.evaluation.benchmark import Figure, Plan, Progress, Report
 from fieldnav.evaluation.speed_frames import crowd_figures, frame_figures
 from fieldnav.evaluation.speed_loop import loop_figures
 from fieldnav.evaluation.speed_mission import mission_figures
 from fieldnav.evaluation.speed_sidestep import sidestep_figure
+from fieldnav.evaluation.speed_soak import soak_report
 from fieldnav.evaluation.speed_timing import one_thread
 
 ROUNDS, QUICK_ROUNDS = 60, 12
 LOOP_S, QUICK_LOOP_S = 60.0, 6.0  # of tracking
 MISSION, QUICK_MISSION = (7, 30.0), (1, 6.0)  # lanes and their length in metres
+
+
+def hour(plan: Plan, progress: Progress) -> Report:
+    """One hour of a mission, in a process that has done nothing before."""
+    report = soak_report(plan, progress)
+    progress("speed: one hour", 1, 1)
+    return report
 
 
 def speed(plan: Plan, progress: Progress) -> list[Figure]:

@@ -5,11 +5,9 @@ from resource import getpagesize
 
 import numpy as np
 
-from fieldnav.evaluation.benchmark import Better, Figure
 from fieldnav.messages import Floats
 
 GOAL_MB = 400.0
-CACHES_FILLED = 2 / 3  # of the mission: from then on what memory still grows by is a leak
 MEGABYTE, HOUR_S = 1e6, 3600.0
 STATM = Path("/proc/self/statm")
 
@@ -21,13 +19,12 @@ def memory_mb() -> float:
     return int(STATM.read_text(encoding="ascii").split()[1]) * getpagesize() / MEGABYTE
 
 
-def memory_figures(case: str, now_s: Floats, held_mb: Floats) -> list[Figure]:
-    """The growth of what was held at those moments, shape (n,), and what that comes to in an hour."""
-    later = now_s > now_s[-1] * CACHES_FILLED
-    growth_mb = float(np.polyfit(now_s[later], held_mb[later], 1)[0] * HOUR_S)
-    hour_mb = float(held_mb[-1] + growth_mb * max(0.0, 1 - now_s[-1] / HOUR_S))
-    metric = "memory after an hour, from its growth so far (MB)"
-    return [
-        Figure(case, "memory, growth in an hour (MB)", growth_mb, better=Better.LOWER),
-        Figure(case, metric, hour_mb, goal=GOAL_MB, better=Better.LOWER),
-    ]
+def growth_mb(now_s: Floats, held_mb: Floats, settled: float) -> float:
+    """What the memory held at those moments, shape (n,), grows by in an hour; NaN where it is not known.
+
+    settled: the share of the time after which caches are full, and what memory still grows by is a leak.
+    """
+    later = now_s >= now_s[0] + settled * (now_s[-1] - now_s[0])
+    if not np.isfinite(held_mb).all():
+        return float("nan")
+    return float(np.polyfit(now_s[later], held_mb[later], 1)[0] * HOUR_S)

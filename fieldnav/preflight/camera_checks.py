@@ -4,6 +4,7 @@ from collections.abc import Iterator, Mapping
 from pathlib import Path
 
 from drivers.recorded_camera import PICTURES
+from drivers.shown_source import shown
 from fieldnav.messages import CameraName, Frame
 from fieldnav.perception.pose.picture_quality import difference, quality, same
 from fieldnav.preflight.finding import Finding, Verdict
@@ -76,7 +77,7 @@ def two_cameras(sources: Mapping[CameraName, CameraSettings], frames: Mapping[Ca
     front, rear = (sources[name].source for name in CameraName)
     opened = len(frames) == len(CameraName)
     if front == rear or (opened and Path(front).resolve() == Path(rear).resolve()):
-        return Finding(check, Verdict.FAIL, f"both have the source {front}", "give each its own")
+        return Finding(check, Verdict.FAIL, f"both have the source {shown(front)}", "give each its own")
     if not opened:
         return Finding(check, Verdict.WARNING, "not compared: one gives no picture")
     apart = difference(*(frames[name].image for name in CameraName))

@@ -9,6 +9,7 @@ import can
 from drivers.can_log import open_bus
 from drivers.opencv_camera import open_camera
 from drivers.ports import Camera
+from drivers.shown_source import shown
 from fieldnav.errors import DriverError
 from fieldnav.messages import CameraName
 from fieldnav.preflight.finding import Finding, Verdict
@@ -61,4 +62,4 @@ def _camera(
         advice = f"see to its cable, or to cameras.{name.value}.source"
         return None, Finding(check, Verdict.FAIL, said, advice)
     stack.callback(camera.close)
-    return camera, Finding(check, Verdict.OK, settings.source)
+    return camera, Finding(check, Verdict.OK, shown(settings.source))

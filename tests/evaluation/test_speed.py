@@ -1,6 +1,6 @@
 """What is timed: that it is the work meant, on pictures as crowded as they are called."""
 
-from math import isfinite
+from math import isfinite, isnan
 from mmap import mmap
 from time import process_time
 
@@ -9,15 +9,19 @@ import numpy as np
 import pytest
 
 from fieldnav.evaluation.benchmark import Plan
+from fieldnav.evaluation.path import PathObserver
 from fieldnav.evaluation.speed_frames import STREWN, bare_primitives, frame_ms, tracking_in
 from fieldnav.evaluation.speed_loop import loop_ms
-from fieldnav.evaluation.speed_memory import STATM, memory_figures, memory_mb
+from fieldnav.evaluation.speed_memory import STATM, growth_mb, memory_mb
 from fieldnav.evaluation.speed_mission import mission_figures
+from fieldnav.evaluation.speed_rig import rigged
 from fieldnav.evaluation.speed_samples import crowded_sample, rendered_sample, strewn_sample
 from fieldnav.evaluation.speed_sidestep import sidestep_figure
+from fieldnav.evaluation.speed_soak import cost_figures, memory_figures, soak
 from fieldnav.evaluation.speed_timing import medians_ms, one_thread
 from fieldnav.perception.plants import find_plants
-from fieldnav.settings.loading import load_crop
+from fieldnav.settings.loading import load_crop, load_field, revised
+from fieldnav.simulation.sketch import SketchRenderer
 from states.guide import Look
 
 
@@ -122,7 +126,47 @@ def test_memory_that_filled_caches_and_then_leaks_is_told_by_its_leak_alone() ->
     now_s = np.arange(0.0, 901.0)
     held_mb = np.minimum(100 + now_s, 200) + now_s / 90  # 40 MB an hour
 
-    growth, hour = memory_figures("demo", now_s, held_mb)
+    assert growth_mb(now_s, held_mb, 2 / 3) == pytest.approx(40)
+    assert isnan(growth_mb(now_s, np.full(901, np.nan), 2 / 3))
 
-    assert growth.value == pytest.approx(40)
-    assert hour.value == pytest.approx(200 + 40) and hour.met
+
+def test_an_hour_tells_its_memory_warm_and_at_the_end_and_its_growth_between() -> None:
+    now_s = np.arange(0.0, 3601.0)
+    held_mb = np.minimum(100 + now_s, 300) + now_s / 60  # 60 MB an hour
+
+    warm, end, path, growth = memory_figures(np.stack([now_s, held_mb], axis=1), path_mb=12.0)
+
+    assert [figure.value for figure in (warm, end, path, growth)] == pytest.approx([310, 360, 12, 60])
+    assert end.met
+    assert memory_figures(np.stack([now_s[:500], held_mb[:500]], axis=1), path_mb=1.0) == []
+
+
+def test_a_loop_that_slows_down_is_told_by_its_early_and_late_rounds() -> None:
+    spent_ms = np.concatenate([np.full(300, 4.0), np.full(400, 5.0), np.full(300, 6.0)])
+    spent_ms[[5, 990]] = 50.0, 80.0  # rarer than one in a hundred
+
+    *figures, growth = cost_figures(spent_ms)
+
+    assert [figure.value for figure in figures] == [4.0, 4.0, 6.0, 6.0]
+    assert growth.value == 1.5 and growth.met is False
+
+
+def test_a_soak_counts_every_round_and_times_those_that_track_alone() -> None:
+    told = []
+    field = revised(load_field("demo"), {"lanes": 1, "length_m": 8.0})
+
+    with rigged(field, SketchRenderer, lambda world: [PathObserver(world)]) as rig:
+        soaked = soak(rig, 8.0, lambda *progress: told.append(progress))
+
+    assert soaked.rounds == 400 and soaked.now_s == pytest.approx(8.0)
+    assert 15 <= len(soaked.spent_ms) <= 15 * 8
+    assert len(soaked.memory) == 2 * 8
+
+
+def test_a_mission_that_is_over_ends_its_soak() -> None:
+    field = revised(load_field("demo"), {"lanes": 1, "length_m": 4.0})
+
+    with rigged(field, SketchRenderer) as rig:
+        soaked = soak(rig, 60.0, lambda *progress: None)
+
+    assert rig.mission.over and soaked.now_s < 59.0
