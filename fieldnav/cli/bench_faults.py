@@ -30,6 +30,7 @@ COLUMNS = (
     "standstill, s",
     "the journal says, for example",
 )
+RULES = ("states", "declared", "so it must go")
 FIGURES = ("as declared", "notice, s", "zero command, s", "standstill, s")
 
 
@@ -67,8 +68,12 @@ def faults(
         played = play_all(plan, tell)
     title = f"faults: fieldnav {commit()} on {machine()}"
     if as_markdown:
-        print("\n".join([in_markdown(title, COLUMNS, _rows(played), FIGURES), "", *_notes(played)]))
+        rules = in_markdown("What counts as declared, by state:", RULES, _rules(), ())
+        print(
+            "\n".join([in_markdown(title, COLUMNS, _rows(played), FIGURES), "", *_notes(played), "", rules])
+        )
         return
+    out().print(table("What counts as declared, by state", RULES, _rules()))
     out().print(table(title, COLUMNS, _rows(played), FIGURES))
     for note in _notes(played):
         out().print(Text(note), soft_wrap=True)
@@ -91,6 +96,14 @@ def _row(each: "Coverage") -> list[str]:
         *(f"{seconds:.2f}" if isfinite(seconds) else "" for seconds in times),
         each.example,
     ]
+
+
+def _rules() -> list[tuple[str, str, str]]:
+    """What is expected where; states of which the same is expected share a line."""
+    from fieldnav.evaluation.faults_injections import injections  # noqa: PLC0415 - see faults
+    from fieldnav.evaluation.faults_rules import rules  # noqa: PLC0415 - see faults
+
+    return [(rule.states, rule.reaction.value, rule.expected) for rule in rules(injections())]
 
 
 def _notes(played: "Played") -> list[str]:

@@ -11,6 +11,7 @@ from typing import Self
 from pydantic import ValidationError
 
 from fieldnav.errors import FieldnavError, OutputError
+from fieldnav.faults import FaultKind, Trouble
 from fieldnav.journal.entry import Entry, Line, line_of
 
 RESERVE_BYTES = 65536
@@ -37,7 +38,24 @@ class Journal:
             raise _unwritable(path, error) from error
 
     def record(self, entry: Entry) -> None:
-        """Append one line; on return it is on the disk. Raises OutputError; the file then ends as before."""
+        """Append one line; on return it is on the disk.
+
+        Raises OutputError; in the room that was kept the file then says so itself, instead of the line.
+        """
+        try:
+            self._append(entry)
+        except OSError as error:
+            unwritable = _unwritable(self._path, error)
+            reason = str(Trouble(FaultKind.DISK_FULL, str(unwritable)))
+            with suppress(OSError):
+                self._reserve.unlink(missing_ok=True)
+                self._append(
+                    Entry(entry.stamp_s, FaultKind.DISK_FULL.value, entry.source, entry.source, reason=reason)
+                )
+            raise unwritable from error
+
+    def _append(self, entry: Entry) -> None:
+        """Raises OSError; the file then ends as before."""
         line = line_of(entry, self._sequence, self._start_utc)
         content = json.dumps(line, allow_nan=False).encode() + b"\n"
         whole_lines = self._file.tell()
@@ -45,11 +63,10 @@ class Journal:
             while content:
                 content = content[self._file.write(content) :]
             os.fsync(self._file.fileno())
-        except OSError as error:
+        except OSError:
             with suppress(OSError):  # the disk is failing already; a torn line would hide the ones after it
                 self._file.truncate(whole_lines)
-                self._reserve.unlink(missing_ok=True)
-            raise _unwritable(self._path, error) from error
+            raise
         self._sequence += 1
 
     def close(self) -> None:

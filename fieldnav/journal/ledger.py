@@ -8,6 +8,7 @@ a killed process cannot undo, and synced beside the loop: a power loss may cost 
 import fcntl
 import os
 from concurrent.futures import Future, ThreadPoolExecutor
+from contextlib import suppress
 from pathlib import Path
 from types import TracebackType
 from typing import Self
@@ -72,7 +73,8 @@ class Ledger:
                 content = content[self._file.write(content) :]
             self._sync(synced)
         except OSError as error:
-            self._file.truncate(whole)
+            with suppress(OSError):  # the disk is failing already; a torn line does not count
+                self._file.truncate(whole)
             raise _unwritable(self._path, error) from error
 
     def _sync(self, at_once: bool) -> None:
