@@ -68,7 +68,7 @@ class LaneMemory:
     @property
     def length_m(self) -> float | None:
         """From the lane's first crop to the last that was seen; None before any was."""
-        return self._end.length_m() if self._end else None
+        return self._end.length_m() if self._end and self._end.first_m is not None else None
 
     @property
     def guide(self) -> Guide:

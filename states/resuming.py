@@ -5,12 +5,14 @@ from dataclasses import dataclass
 from fieldnav.estimation.lane_end import LaneEnd
 from fieldnav.messages import CameraName, Evidence, Frame
 from fieldnav.perception.lane import LaneFit
-from fieldnav.perception.perceive import find
+from fieldnav.perception.perceive import View, find
 from states.acquiring import CREEP_LIMIT_M
 from states.agreement import Agreement
 from states.behaviour import Observation, Sight, Step, Task
+from states.drawn_lane import DrawnLane
+from states.guide import Guide
 from states.guides import guide_for
-from states.lane_watch import driven_m
+from states.lane_watch import driven_m, watch_end
 from states.memory import LaneMemory
 from states.names import Event, Follow, Phase
 from states.place import Resumption
@@ -20,8 +22,9 @@ OTHER_WAY_S = 2.0
 """So long the camera that should see the lane is waited for before the other one's word is taken."""
 LONGEST_S = 6.0
 """What was not seen at standstill by then will not be."""
-WIDEST_M, STEEPEST = 0.25, 0.27
-"""Offset and slope of the lane that following gets over: 15 degrees. Further off somebody moved the robot."""
+WIDEST_M, STEEPEST = 0.15, 0.2
+"""Offset and slope of the lane: a robot that followed it stands within a third of these. Further off somebody
+moved it, or what few plants are in view are taken for other rows than they stand in."""
 
 
 @dataclass(slots=True)
@@ -49,6 +52,7 @@ class ResumingLane:
         self.cameras: tuple[CameraName, ...] = (ahead, behind)
         self._first = behind if Phase.EXIT in resumption.leaf else ahead
         self._looks = {name: _Look(Agreement(AGREEING_FRAMES)) for name in self.cameras}
+        self._drawn = DrawnLane(task, self._direction)
         self._entered_s: float | None = None
         self._step = Step()
 
@@ -76,25 +80,37 @@ class ResumingLane:
             Evidence("looked", looked_s, LONGEST_S, "s"),
         )
         sight = Sight(frame, lane.rows if lane else found.lines, found.centres)
-        in_turn = frame.camera is self._first or looked_s > OTHER_WAY_S
-        if lane is None or not in_turn or not look.fits(crop.rows.per_lane):
-            return Step(evidence=evidence, sight=sight)
-        reason = self._go_on(lane, frame, seen)
-        return Step(event=Event.PLACE_FITS, evidence=evidence, sight=sight, reason=reason)
+        reason = self._fits(found, look, frame, seen, looked_s)
+        return Step(event=Event.PLACE_FITS if reason else None, evidence=evidence, sight=sight, reason=reason)
 
-    def _go_on(self, lane: LaneFit, frame: Frame, seen: Observation) -> str:
+    def _fits(self, found: View, look: _Look, frame: Frame, seen: Observation, looked_s: float) -> str:
+        """By what the mission goes on, once it does; empty until then."""
+        ahead, lane = frame.camera is self._direction.leading, look.lane
+        in_turn = frame.camera is self._first or looked_s > OTHER_WAY_S
+        if in_turn and lane and look.fits(self._task.crop.rows.per_lane):
+            guide = guide_for(self._task, self._direction)
+            guide.begin(lane, frame, seen.exposed_at(frame))
+            self._go_on(guide, lane.rows_seen, found, frame, seen)
+            return "the lane is seen ahead" if ahead else "the lane is seen behind"
+        if ahead or self._first is not frame.camera or looked_s <= OTHER_WAY_S:
+            return ""
+        if not self._drawn.fits(frame, found.centres, seen.exposed_at(frame)):
+            return ""
+        self._go_on(self._drawn.guide, self._drawn.rows_seen, found, frame, seen)
+        return "plants stand behind where the lane's rows must end"
+
+    def _go_on(self, guide: Guide, rows_seen: int, found: View, frame: Frame, seen: Observation) -> None:
         """Follow what is seen ahead; leave the lane by what is seen behind."""
-        if frame.camera is self._direction.leading:
-            self._lane.resumes = (self._direction, Phase.FOLLOW, Follow.ACQUIRING)
-            return "the lane is seen ahead"
-        begin_m = driven_m(seen, self._direction) - CREEP_LIMIT_M
-        begin_m -= self._task.cameras[frame.camera].view_m[1]  # the trailing camera looks back
-        end = LaneEnd(self._task.crop, begin_m, self._lane.expected_m, self._lane.from_m)
-        self._lane.enter(guide_for(self._task, self._direction), end)
-        self._lane.guide.begin(lane, frame, seen.exposed_at(frame))
-        self._lane.counts[lane.rows_seen] += 1
-        self._lane.resumes = (self._direction, Phase.EXIT)
-        return "the lane is seen behind"
+        task, direction, lane = self._task, self._direction, self._lane
+        begin_m = driven_m(seen, direction) - CREEP_LIMIT_M
+        begin_m -= task.cameras[frame.camera].view_m[1]  # the trailing camera looks back
+        lane.enter(guide, LaneEnd(task.crop, begin_m, lane.expected_m, lane.from_m))
+        lane.counts[rows_seen] += 1
+        rows = guide.rows(frame.camera, seen.exposed_at(frame))
+        # The crop behind must be known before the one ahead is missed.
+        watch_end(lane, frame, found.centres, rows, seen, direction, task)
+        ahead = frame.camera is direction.leading
+        lane.resumes = (direction, Phase.FOLLOW, Follow.TRACKING) if ahead else (direction, Phase.EXIT)
 
     def _misfit(self) -> str:
         lanes = [f"{name.value} camera: {_words(look.lane)}" for name, look in self._looks.items()]

@@ -5,8 +5,10 @@ from dataclasses import replace
 from fieldnav.messages import CameraName, Evidence, Frame
 from fieldnav.perception.canopy import canopy_plane
 from fieldnav.perception.lane import comb_m
-from fieldnav.perception.sidestep.meeting import all_known
-from fieldnav.perception.sidestep.passing_rows import Crossing, begin
+from fieldnav.perception.perceive import find
+from fieldnav.perception.sidestep.meeting import ROW_MASS, all_known
+from fieldnav.perception.sidestep.next_lane import LEAST_GAP, old_lane_m
+from fieldnav.perception.sidestep.passing_rows import Crossing, begin, look_at_m
 from fieldnav.perception.sidestep.row_lines import row_in_view
 from fieldnav.perception.sidestep.row_words import LEAST_SHOWN
 from states.behaviour import Observation, Step, Task
@@ -14,6 +16,7 @@ from states.memory import LaneMemory, SwitchMemory
 from states.names import Event, Phase, Sidestep
 from states.passing import look
 from states.place import Resumption
+from states.sideways import began_m
 
 FRAMES_FITTING = 6
 LONGEST_S = 6.0
@@ -52,13 +55,15 @@ class ResumingSidestep:
         crop, camera = self._task.crop, self._task.cameras[frame.camera]
         if self._lane.switch is None:
             started_m = seen.sideways_m - self._resumption.moved_m
-            self._lane.switch = SwitchMemory(started_m, seen.forward_m, crossing=self._drawn(frame))
+            self._lane.switch = SwitchMemory(started_m, seen.forward_m, crossing=self._drawn(frame), looks=0)
         rows, sight = look(self._task, self._lane.switch, frame, seen)
         old = [row for row in rows.rows if row.of_old_lane and row_in_view(rows, row.across_m, crop, camera)]
         shown = max((row.shown for row in old), default=0.0)
-        met = bool(rows.new) and not old
+        met = not old and (bool(rows.new) or self._beyond(frame, rows))
         self._fitting += shown > LEAST_SHOWN or met
-        in_place = rows.rows[rows.outermost_old].shown > LEAST_SHOWN
+        outermost = rows.rows[rows.outermost_old].shown > LEAST_SHOWN
+        # A robot that has not come away from the old lane has nothing to go back to.
+        in_place = outermost or abs(self._resumption.moved_m) < crop.rows.spacing_m / 2
         evidence = (
             Evidence("moved sideways by the ledger", self._resumption.moved_m, None, "m"),
             Evidence("what a row of the old lane shows", shown, LEAST_SHOWN),
@@ -68,9 +73,20 @@ class ResumingSidestep:
         if self._fitting < FRAMES_FITTING:
             return Step(evidence=evidence, sight=sight)
         self._lane.switch.crossing = all_known(rows)
+        if outermost:
+            self._lane.switch.started_m = began_m(self._task, seen, old_lane_m(rows, crop))
         at = Sidestep.CROSSING if in_place else Sidestep.RETURNING
+        self._lane.switch.looks += in_place  # Returning counts the one that follows it
         self._lane.resumes = (self._resumption.direction, Phase.SIDESTEP, at)
         return Step(event=Event.PLACE_FITS, evidence=evidence, sight=sight)
+
+    def _beyond(self, frame: Frame, rows: Crossing) -> bool:
+        """Whether a row is found where the next lane may be: at rest one is not met beside a heavier one."""
+        crop, camera = self._task.crop, self._task.cameras[frame.camera]
+        plane, outward = canopy_plane(camera, crop), self._task.outward(frame.camera)
+        least_m = rows.rows[rows.outermost_old].across_m + LEAST_GAP * crop.rows.spacing_m
+        found = (plane.row_on_ground(line) for line in find(frame.image, crop, camera).lines)
+        return any(outward * (offset + slope * look_at_m(plane)) > least_m for offset, slope in found)
 
     def _drawn(self, frame: Frame) -> Crossing:
         """The old lane's rows, as far behind as the robot has moved to the next lane's side."""
@@ -81,4 +97,5 @@ class ResumingSidestep:
         crossing = begin(lines, HEADING_SD, outward, crop, camera)
         covariance = crossing.covariance.copy()
         covariance[: len(lines), : len(lines)] += PLACE_SD_M**2  # what is off is off for all of them
-        return replace(crossing, covariance=covariance)
+        # No row need be in view that tells what rows show here: what is met must be no less than one at all.
+        return replace(crossing, covariance=covariance, usual_mass=ROW_MASS)

@@ -2,13 +2,14 @@
 
 from fieldnav.messages import CameraName, Direction, Evidence
 from fieldnav.perception.sidestep.meeting import all_known
+from fieldnav.perception.sidestep.next_lane import old_lane_m
 from fieldnav.perception.sidestep.row_words import LEAST_SHOWN
 from states.behaviour import Observation, Step, Task
 from states.clearance import away, nearest_end_m
 from states.memory import LaneMemory
 from states.names import Event
 from states.passing import look
-from states.sideways import sideways, way
+from states.sideways import began_m, sideways, way
 
 FRAMES_SEEN = 10
 """The old lane's outermost row must stand wholly in the view with its plants for so long."""
@@ -45,6 +46,7 @@ class Returning:
         )
         if self._frames >= FRAMES_SEEN:
             switch.looks += 1
+            switch.started_m = began_m(self._task, seen, old_lane_m(rows, crop))
             switch.crossing = all_known(rows)
             return Step(sideways(self._task, 0.0), Event.OLD_LANE_SEEN, evidence, sight)
         if moved.value <= 0:

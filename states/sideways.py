@@ -31,3 +31,8 @@ def way(task: Task, switch: SwitchMemory, seen: Observation) -> Evidence:
 def too_far(moved: Evidence) -> bool:
     """Whether the sidestep has passed its bound."""
     return moved.threshold is not None and moved.value > moved.threshold
+
+
+def began_m(task: Task, seen: Observation, old_m: float) -> float:
+    """The wheels' sideways travel over the middle of the old lane, which lies old_m outward of the robot."""
+    return seen.sideways_m + task.side.sign * old_m

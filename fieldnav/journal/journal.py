@@ -58,7 +58,7 @@ class Journal:
         """Raises OSError; the file then ends as before."""
         line = line_of(entry, self._sequence, self._start_utc)
         content = json.dumps(line, allow_nan=False).encode() + b"\n"
-        whole_lines = self._file.tell()
+        whole_lines = self._file.seek(0, os.SEEK_END)
         try:
             while content:
                 content = content[self._file.write(content) :]

@@ -10,7 +10,7 @@ from fieldnav.perception.seen_motion import agreement, expected_px, patch
 from fieldnav.perception.sidestep.wheel_motion import travelled
 from fieldnav.pinhole import Pinhole
 
-LEAST_M, MOST_M = 0.02, 0.08
+LEAST_M, MOST_M = 0.045, 0.09
 """Of driving from one picture to the other: less is lost in shaking; after more, plants a row's spacing apart
 may be taken for each other, and the ground then seems to go back."""
 CLEAR, MOST = 0.5, 2.0
@@ -20,7 +20,7 @@ AGAINST = 4
 """Votes against more than for it that are believed."""
 TRUSTED = 4
 """Votes for it that count at most, and from which on a look is taken only now and then."""
-NOW_AND_THEN_M = 0.5
+NOW_AND_THEN_M = 0.1
 
 
 @dataclass(frozen=True, slots=True)
@@ -36,11 +36,15 @@ class MotionVote:
         self._camera = camera
         self._before: _Before | None = None
         self._votes = 0
-        self._compared_at = Pose()
+        self._agreed_at = Pose()
+
+    def suspect(self) -> None:
+        """A frame looks like the one before it turned: half of what is needed, for rows look much alike."""
+        self._votes = min(self._votes, 0) - AGAINST // 2
 
     def against(self, frame: Frame, pose: Pose) -> bool:
         """Whether it has become certain that the ground moves the other way."""
-        resting = self._votes >= TRUSTED and _distance_m(self._compared_at, pose) < NOW_AND_THEN_M
+        resting = self._votes >= TRUSTED and _distance_m(self._agreed_at, pose) < NOW_AND_THEN_M
         if resting:
             return False
         if self._before is None or _distance_m(self._before.pose, pose) > MOST_M:
@@ -59,11 +63,10 @@ class MotionVote:
             # Copies, for OpenCV weighs the pictures that it is given in place.
             seen = agreement(before.patch.copy(), now.patch.copy(), expected_px(self._camera, moved))
         if seen >= CLEAR:
-            self._votes = min(self._votes + 1, TRUSTED)
+            self._votes, self._agreed_at = min(self._votes + 1, TRUSTED), pose
         elif -MOST <= seen <= -CLEAR:
             self._votes = min(self._votes, 0) - 1  # long trust must not hide what has just happened
-        self._before = None if self._votes >= TRUSTED else now
-        self._compared_at = pose
+        self._before = now
 
 
 def _distance_m(one: Pose, other: Pose) -> float:

@@ -48,10 +48,7 @@ class PictureWatch:
         sample = frame.image[::EVERY_PX, ::EVERY_PX]
         found = self._unlit(frame, float(sample.mean())) or self._frozen(frame, sample, pose)
         if found is None and self._turn.happened(frame, pose):
-            raise DriverError(
-                f"{frame.camera.value} camera: from one frame to the next its picture stands upside down",
-                FaultKind.CAMERA_TURNED,
-            )
+            self._vote.suspect()
         if found is None and self._vote.against(frame, pose):
             raise DriverError(
                 f"{frame.camera.value} camera: the ground moves against what the wheels say; it hangs upside "

@@ -15,9 +15,10 @@ TEXTURE, COARSER_PX = 2.5, 3.0
 and nothing can then be compared."""
 REACH = 0.25
 """Of a patch's height, by which the ground may have moved in it, each way: driving, and shaking."""
-NEAR_M, NEAR_RAD, NEAR_S = 0.045, 0.05, 3.0
-"""Frames taken further apart show different ground, or the robot has swung too far in between."""
-ALIKE, MORE_ALIKE = 0.6, 0.06
+NEAR_M, NEAR_RAD, NEAR_S = 0.045, 0.05, 20.0
+"""Frames taken further apart show different ground, or the robot has swung too far in between. Wheels take
+several seconds to turn across, and no camera is looked at meanwhile."""
+ALIKE, MORE_ALIKE = 0.6, 0.03
 """Correlation of the patch with the one before it turned, and by how much that must exceed the plain one.
 Measured on rendered fields of every crop, frame by frame: the plain one is higher by 0.14 to 0.7."""
 
@@ -44,7 +45,7 @@ class SuddenTurn:
     def happened(self, frame: Frame, pose: Pose) -> bool:
         """Whether this frame is like the one before only when that is turned."""
         now, before = _Before(textured(patch(frame.image)), pose, frame.stamp_s), self._before
-        self._before = now if now.fine.size else None
+        self._before = now if now.fine.size else before  # glare or bare soil for a moment hides nothing
         if before is None or not now.fine.size or not before.near(now):
             return False
         turned = _likeness(now.fine, before.fine[::-1, ::-1])
