@@ -8,7 +8,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from fieldnav.errors import FieldnavError, OutputError
@@ -92,6 +92,7 @@ def test_a_process_that_is_killed_leaves_every_recorded_line(tmp_path: Path) -> 
     assert [line.stamp_s for line in read(tmp_path / "journal.jsonl")] == [0, 1, 2, 3, 4]
 
 
+@settings(max_examples=30)  # each waits for the disk
 @given(cut=st.integers(1, 400))
 def test_a_journal_torn_at_any_byte_reads_up_to_its_last_whole_line_and_goes_on(
     cut: int, tmp_path_factory: pytest.TempPathFactory

@@ -5,7 +5,7 @@ import sys
 from pathlib import Path
 
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from fieldnav.errors import FieldnavError, OutputError
@@ -81,6 +81,7 @@ def test_no_ledger_and_an_empty_one_say_nothing(path: Path) -> None:
     assert last_booking(path) == booking(1)
 
 
+@settings(max_examples=30)  # each waits for the disk
 @given(cut=st.integers(1, 180))
 def test_a_line_torn_at_any_byte_does_not_count_and_is_cut_off(
     cut: int, tmp_path_factory: pytest.TempPathFactory

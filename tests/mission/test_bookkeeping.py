@@ -5,7 +5,7 @@ from pathlib import Path
 from types import SimpleNamespace
 
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from fieldnav.errors import FieldnavError
@@ -63,6 +63,7 @@ def books(tmp_path: Path, shipped: SimpleNamespace) -> Iterator[Books]:
     made.ledger.close()
 
 
+@settings(max_examples=30)  # each waits for the disk
 @given(
     leaf=st.sampled_from(LANE_LEAVES),
     number=st.integers(1, 9),
