@@ -16,10 +16,11 @@ from fieldnav.operator.terminal import HELP, TerminalKeys
 from states.names import Event, text
 
 INTERRUPTING = (Event.PAUSE, Event.FAIL, Event.LATCH)
+LATER = "or Ctrl-C, and later `fieldnav run --resume last`"
 WHAT_NEXT = {
     Event.PAUSE: "go on with Enter, or `fieldnav ctl resume`",
-    Event.FAIL: "go on with Enter or `fieldnav ctl resume`; or Ctrl-C, and later `fieldnav run --resume last`",
-    Event.LATCH: "go on with `fieldnav ctl reset`; or Ctrl-C, and later `fieldnav run --resume last`",
+    Event.FAIL: f"go on with Enter or `fieldnav ctl resume`; {LATER}",
+    Event.LATCH: f"go on with `fieldnav ctl reset`; {LATER}",
 }
 
 
