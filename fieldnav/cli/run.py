@@ -44,7 +44,10 @@ def run(
         typer.Option(help="Take up a run that was broken off: its name, its path, or 'last'.", metavar="RUN"),
     ] = None,
     dry_run: Annotated[
-        bool, typer.Option("--dry-run", help="Do everything, but send nothing on the bus.")
+        bool,
+        typer.Option(
+            "--dry-run", help="Do everything, but send nothing: a remote brings the modules up and drives."
+        ),
     ] = False,
     confirm: Annotated[
         str,
