@@ -125,6 +125,7 @@ def test_the_run_directory_holds_everything(mission: tuple[RunDirectory, Summary
 
     assert {path.name for path in directory.path.iterdir()} == {
         "journal.jsonl",
+        "ledger.jsonl",
         "summary.json",
         "settings.yaml",
         "can.log",
