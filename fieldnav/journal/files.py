@@ -1,6 +1,9 @@
-"""Writing a whole file or none of it."""
+"""Writing a whole file or none of it, and whole lines or none of them."""
 
 import os
+from collections.abc import Callable
+from contextlib import suppress
+from io import FileIO
 from pathlib import Path
 
 from fieldnav.errors import OutputError
@@ -16,6 +19,24 @@ def write_atomically(path: Path, content: bytes) -> None:
             os.fsync(file.fileno())
         beside.replace(path)
     except OSError as error:
-        raise OutputError(f"{path}: cannot be written: {error.strerror}") from error
+        raise unwritable(path, error) from error
     finally:
         beside.unlink(missing_ok=True)
+
+
+def append_line(file: FileIO, line: bytes, sync: Callable[[], None]) -> None:
+    """Append a line to an unbuffered file and sync it. Raises OSError; the file then ends as before."""
+    content, whole_lines = line + b"\n", file.seek(0, os.SEEK_END)
+    try:
+        while content:
+            content = content[file.write(content) :]
+        sync()
+    except OSError:
+        with suppress(OSError):  # the disk is failing already; a torn line would hide the ones after it
+            file.truncate(whole_lines)
+        raise
+
+
+def unwritable(path: Path, error: OSError) -> OutputError:
+    """The error of a file that cannot be written, in one line."""
+    return OutputError(f"{path}: cannot be written: {error.strerror}")

@@ -4,15 +4,17 @@ import json
 import os
 from contextlib import suppress
 from datetime import datetime
+from functools import partial
 from pathlib import Path
 from types import TracebackType
 from typing import Self
 
 from pydantic import ValidationError
 
-from fieldnav.errors import FieldnavError, OutputError
+from fieldnav.errors import FieldnavError
 from fieldnav.faults import FaultKind, Trouble
 from fieldnav.journal.entry import Entry, Line, line_of
+from fieldnav.journal.files import append_line, unwritable
 
 RESERVE_BYTES = 65536
 """Some fifty lines."""
@@ -35,7 +37,7 @@ class Journal:
             self._reserve.write_bytes(bytes(RESERVE_BYTES))
             _sync_folder(path.parent)
         except OSError as error:
-            raise _unwritable(path, error) from error
+            raise unwritable(path, error) from error
 
     def record(self, entry: Entry) -> None:
         """Append one line; on return it is on the disk.
@@ -45,28 +47,20 @@ class Journal:
         try:
             self._append(entry)
         except OSError as error:
-            unwritable = _unwritable(self._path, error)
-            reason = str(Trouble(FaultKind.DISK_FULL, str(unwritable)))
+            failed = unwritable(self._path, error)
+            reason = str(Trouble(FaultKind.DISK_FULL, str(failed)))
             with suppress(OSError):
                 self._reserve.unlink(missing_ok=True)
                 self._append(
                     Entry(entry.stamp_s, FaultKind.DISK_FULL.value, entry.source, entry.source, reason=reason)
                 )
-            raise unwritable from error
+            raise failed from error
 
     def _append(self, entry: Entry) -> None:
         """Raises OSError; the file then ends as before."""
         line = line_of(entry, self._sequence, self._start_utc)
-        content = json.dumps(line, allow_nan=False).encode() + b"\n"
-        whole_lines = self._file.seek(0, os.SEEK_END)
-        try:
-            while content:
-                content = content[self._file.write(content) :]
-            os.fsync(self._file.fileno())
-        except OSError:
-            with suppress(OSError):  # the disk is failing already; a torn line would hide the ones after it
-                self._file.truncate(whole_lines)
-            raise
+        content = json.dumps(line, allow_nan=False).encode()
+        append_line(self._file, content, partial(os.fsync, self._file.fileno()))
         self._sequence += 1
 
     def close(self) -> None:
@@ -121,7 +115,3 @@ def _sync_folder(folder: Path) -> None:
         os.fsync(descriptor)
     finally:
         os.close(descriptor)
-
-
-def _unwritable(path: Path, error: OSError) -> OutputError:
-    return OutputError(f"{path}: cannot be written: {error.strerror}")

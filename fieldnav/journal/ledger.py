@@ -8,7 +8,7 @@ a killed process cannot undo, and synced beside the loop: a power loss may cost 
 import fcntl
 import os
 from concurrent.futures import Future, ThreadPoolExecutor
-from contextlib import suppress
+from functools import partial
 from pathlib import Path
 from types import TracebackType
 from typing import Self
@@ -16,6 +16,7 @@ from typing import Self
 from pydantic import BaseModel, ConfigDict, ValidationError
 
 from fieldnav.errors import FieldnavError, OutputError
+from fieldnav.journal.files import append_line, unwritable
 
 LAST_BYTES = 65536
 """Of the file's end, in which a whole line is looked for: a hundred of them."""
@@ -54,7 +55,7 @@ class Ledger:
         try:
             self._file = path.open("ab", buffering=0)
         except OSError as error:
-            raise _unwritable(path, error) from error
+            raise unwritable(path, error) from error
         try:
             fcntl.flock(self._file, fcntl.LOCK_EX | fcntl.LOCK_NB)
         except OSError as error:
@@ -66,16 +67,11 @@ class Ledger:
 
     def book(self, booking: Booking, synced: bool = True) -> None:
         """Append one line; `synced`: on return it is on the disk, else soon after. Raises OutputError."""
-        content = booking.model_dump_json(exclude_defaults=True).encode() + b"\n"
-        whole = self._file.seek(0, os.SEEK_END)
+        content = booking.model_dump_json(exclude_defaults=True).encode()
         try:
-            while content:
-                content = content[self._file.write(content) :]
-            self._sync(synced)
+            append_line(self._file, content, partial(self._sync, synced))
         except OSError as error:
-            with suppress(OSError):  # the disk is failing already; a torn line does not count
-                self._file.truncate(whole)
-            raise _unwritable(self._path, error) from error
+            raise unwritable(self._path, error) from error
 
     def _sync(self, at_once: bool) -> None:
         """Raises OSError, also that of an earlier sync beside the loop."""
@@ -126,7 +122,3 @@ def _whole_lines(path: Path) -> int:
         file.seek(start)
         content = file.read()
     return start + content.rfind(b"\n") + 1
-
-
-def _unwritable(path: Path, error: OSError) -> OutputError:
-    return OutputError(f"{path}: cannot be written: {error.strerror}")

@@ -1,5 +1,6 @@
 """When the ledger is written, and what a line of it means to the states."""
 
+from dataclasses import asdict
 from math import hypot
 
 from fieldnav.errors import FieldnavError
@@ -60,22 +61,10 @@ class Bookkeeping:
         )
 
     def _booking(self, now_s: float, place: Place, finished: bool) -> Booking:
+        there = asdict(place) | {"state": text(place.leaf), "done": self._behaviours.done}
+        del there["leaf"]
         return Booking(
-            stamp_s=now_s,
-            state=text(place.leaf),
-            side=self._task.side.value,
-            lanes=self._task.lanes,
-            lane=place.lane,
-            done=self._behaviours.done,
-            rows=place.rows,
-            forward_m=place.forward_m,
-            sideways_m=place.sideways_m,
-            lane_from_m=place.lane_from_m,
-            lane_length_m=place.lane_length_m,
-            expected_m=place.expected_m,
-            pitches_m=place.pitches_m,
-            sidestep_from_m=place.sidestep_from_m,
-            finished=finished,
+            stamp_s=now_s, side=self._task.side.value, lanes=self._task.lanes, finished=finished, **there
         )
 
 
@@ -83,16 +72,5 @@ def place_of(booking: Booking) -> Place:
     """The place that a line of the ledger means. Raises FieldnavError for a state that there is not."""
     if booking.state not in LEAF_NAMED:
         raise FieldnavError(f"ledger: state '{booking.state}' is none of a lane's")
-    return Place(
-        leaf=LEAF_NAMED[booking.state],
-        lane=booking.lane,
-        done=booking.done,
-        rows=booking.rows,
-        forward_m=booking.forward_m,
-        sideways_m=booking.sideways_m,
-        lane_from_m=booking.lane_from_m,
-        lane_length_m=booking.lane_length_m,
-        expected_m=booking.expected_m,
-        pitches_m=booking.pitches_m,
-        sidestep_from_m=booking.sidestep_from_m,
-    )
+    known = booking.model_dump(exclude={"stamp_s", "state", "side", "lanes", "finished"})
+    return Place(leaf=LEAF_NAMED[booking.state], **known)

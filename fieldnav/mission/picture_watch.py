@@ -11,12 +11,11 @@ from fieldnav.messages import Frame
 from fieldnav.mission.motion_vote import MotionVote
 from fieldnav.mission.sudden_turn import SuddenTurn
 from fieldnav.odometry import Pose
+from fieldnav.perception.pose.picture_quality import BLACK, WHITE
 from fieldnav.pinhole import Pinhole
 
 EVERY_PX = 8
 """Pixels of every so many rows and columns are looked at: 14,000 of them, whose noise never comes twice."""
-BLACK, WHITE = 10.0, 245.0
-"""Grey levels; a field by night is darker, a sensor in the sun brighter. As in the pre-flight check."""
 FROZEN_M = 0.02
 """Driven under one and the same picture; a plant then moves by ten pixels."""
 FROZEN_S = 5.0

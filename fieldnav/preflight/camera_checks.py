@@ -6,7 +6,7 @@ from pathlib import Path
 from drivers.recorded_camera import PICTURES
 from drivers.shown_source import shown
 from fieldnav.messages import CameraName, Frame
-from fieldnav.perception.pose.picture_quality import difference, quality, same
+from fieldnav.perception.pose.picture_quality import BLACK, WHITE, difference, quality, same
 from fieldnav.preflight.finding import Finding, Verdict
 from fieldnav.preflight.sampling import PATIENCE_S, Taken
 from fieldnav.settings.camera import CameraSettings
@@ -14,7 +14,6 @@ from fieldnav.settings.camera import CameraSettings
 LEAST_GAP_S = 0.005
 """No camera is faster than 200 frames a second; frames that came at once have no rate."""
 SLOW = 0.8  # of the robot file's rate
-BLACK, WHITE = 10.0, 245.0  # grey levels; a field by night is darker, a sensor in the sun brighter
 LEAST_CONTRAST = 4.0  # grey levels; soil without a plant has 10 or more
 LEAST_SHARPNESS = 50.0  # fields in focus have 190 or more, blurred by two pixels 30 or less
 ALIKE = 3.0  # grey levels; two views of one scene differ by less, ends of a robot by 10 or more

@@ -10,6 +10,9 @@ from fieldnav.messages import Image
 THUMBNAIL_PX = (64, 36)
 """Width and height at which pictures are compared: sensor noise is gone, every plant still there."""
 
+BLACK, WHITE = 10.0, 245.0
+"""Grey levels of mean brightness; a field by night is darker, a sensor in the sun brighter."""
+
 
 @dataclass(frozen=True, slots=True)
 class PictureQuality:
