@@ -144,14 +144,40 @@ class WheelReport:
     charge_percent: float | None = None
 
 
+class Bound(Enum):
+    """On which side of its threshold a quantity has to lie for its event."""
+
+    AT_LEAST = ">="
+    ABOVE = ">"
+    AT_MOST = "<="
+    BELOW = "<"
+
+    @property
+    def sign(self) -> int:
+        """+1 where more is wanted, -1 where less is."""
+        return 1 if self in (Bound.AT_LEAST, Bound.ABOVE) else -1
+
+    def holds(self, value: float, threshold: float) -> bool:
+        """Whether the condition holds; one of which a side is no number does not."""
+        past = self.sign * (value - threshold)
+        return past >= 0 if self in (Bound.AT_LEAST, Bound.AT_MOST) else past > 0
+
+
 @dataclass(frozen=True, slots=True)
 class Evidence:
-    """One quantity a state judged: its value, the threshold it was held against, the unit of both."""
+    """One quantity a state judged: its value, the threshold it was held against, the unit of both.
+
+    fires: the event that it is a condition of, with `bound` the side that the threshold wants. An event comes
+    about when all of its conditions hold; or one that is enough `alone`.
+    """
 
     name: str
     value: float
     threshold: float | None = None
     unit: str = ""
+    fires: Enum | None = None
+    bound: Bound = Bound.AT_LEAST
+    alone: bool = False
 
 
 @dataclass(frozen=True, slots=True)

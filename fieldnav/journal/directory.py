@@ -57,6 +57,14 @@ class RunDirectory:
         return self.path / "can.log"
 
     @property
+    def recording(self) -> Path:
+        return self.path / "recording.mcap"
+
+    @property
+    def report(self) -> Path:
+        return self.path / "report.html"
+
+    @property
     def map(self) -> Path:
         return self.path / "map.png"
 

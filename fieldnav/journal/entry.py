@@ -7,7 +7,7 @@ from typing import Any
 
 from pydantic import BaseModel, ConfigDict
 
-from fieldnav.messages import Evidence, Frame, Twist
+from fieldnav.messages import Bound, Evidence, Frame, Twist
 
 DIGITS = 6
 """Decimals kept of a number: a micrometre, a microsecond; below lies noise that differs between machines."""
@@ -15,7 +15,10 @@ DIGITS = 6
 
 @dataclass(frozen=True, slots=True)
 class Entry:
-    """A transition or a notable event: decided on which `frame`, and the `command` the wheels get."""
+    """A transition or a notable event: decided on which `frame`, and the `command` the wheels get.
+
+    forward_m, sideways_m: what the wheels had travelled since the run began, signed in the robot's axes.
+    """
 
     stamp_s: float
     event: str
@@ -27,10 +30,12 @@ class Entry:
     frame: Frame | None = None
     command: Twist | None = None
     reason: str = ""
+    forward_m: float | None = None
+    sideways_m: float | None = None
 
 
 class Judged(BaseModel):
-    """One quantity as read back; a value that was not a number is None."""
+    """One quantity as read back, see messages.Evidence; a value that was not a number is None."""
 
     model_config = ConfigDict(frozen=True, allow_inf_nan=False)
 
@@ -38,6 +43,22 @@ class Judged(BaseModel):
     value: float | None
     threshold: float | None = None
     unit: str = ""
+    fires: str = ""
+    bound: Bound = Bound.AT_LEAST
+    alone: bool = False
+
+    @property
+    def margin(self) -> float | None:
+        """How far the value lies beyond its threshold, in its unit: negative where the condition fails."""
+        if self.value is None or self.threshold is None or not self.fires:
+            return None
+        return self.bound.sign * (self.value - self.threshold)
+
+    @property
+    def holds(self) -> bool:
+        """Whether the condition that it is holds."""
+        known = self.value is not None and self.threshold is not None
+        return known and self.bound.holds(self.value, self.threshold)  # type: ignore[arg-type]
 
 
 class Line(BaseModel):
@@ -57,6 +78,8 @@ class Line(BaseModel):
     frame: dict[str, str | int | float | None] | None = None
     command: dict[str, float | None] | None = None
     reason: str = ""
+    forward_m: float | None = None
+    sideways_m: float | None = None
 
 
 def line_of(entry: Entry, sequence: int, start_utc: datetime) -> dict[str, Any]:
@@ -72,15 +95,7 @@ def line_of(entry: Entry, sequence: int, start_utc: datetime) -> dict[str, Any]:
         "target": entry.target,
         "lane": entry.lane,
         "rows": entry.rows,
-        "evidence": [
-            {
-                "name": judged.name,
-                "value": _number(judged.value),
-                "threshold": _number(judged.threshold),
-                "unit": judged.unit,
-            }
-            for judged in entry.evidence
-        ],
+        "evidence": [judged_as_json(judged) for judged in entry.evidence],
         "frame": frame
         and {"camera": frame.camera.value, "sequence": frame.sequence, "stamp_s": _number(frame.stamp_s)},
         "command": command
@@ -90,7 +105,23 @@ def line_of(entry: Entry, sequence: int, start_utc: datetime) -> dict[str, Any]:
             "yaw_rate_rps": _number(command.yaw_rate_rps),
         },
         "reason": entry.reason,
+        "forward_m": _number(entry.forward_m),
+        "sideways_m": _number(entry.sideways_m),
     }
+
+
+def judged_as_json(judged: Evidence) -> dict[str, Any]:
+    """A quantity as plain JSON values; what it is a condition of only where it is one."""
+    plain = {
+        "name": judged.name,
+        "value": _number(judged.value),
+        "threshold": _number(judged.threshold),
+        "unit": judged.unit,
+    }
+    if judged.fires is None:
+        return plain
+    condition = {"fires": judged.fires.value, "bound": judged.bound.value}
+    return plain | condition | ({"alone": True} if judged.alone else {})
 
 
 def _number(value: float | None) -> float | None:

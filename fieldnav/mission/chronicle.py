@@ -64,6 +64,8 @@ class Chronicle:
             rows_passed=lane.rows_passed,
             forward_m=self._travel.forward_m,
             sideways_m=self._travel.sideways_m,
+            pose=self._travel.pose,
+            report=self._travel.report,
             warning=warning,
             reason=self._because,
         )
@@ -91,5 +93,7 @@ class Chronicle:
             frame=step.sight.frame if step.sight else None,
             command=step.motion.twist if target in LANE_LEAVES else STANDSTILL,
             reason=step.reason,
+            forward_m=self._travel.forward_m,
+            sideways_m=self._travel.sideways_m,
         )
         self._journal.record(entry)

@@ -1,9 +1,11 @@
 """What happened in one tick of the loop, for those who watch: journal pictures, figures, the live line."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Protocol
 
+from fieldnav.messages import WheelReport
 from fieldnav.mission.gate import Passed
+from fieldnav.odometry import Pose
 from states.behaviour import Step
 from states.machine import Change
 from states.names import Path
@@ -13,6 +15,7 @@ from states.names import Path
 class Tick:
     """What happened in one tick, for those who watch.
 
+    pose: where the wheels say that the robot is; report: what they said last.
     reason: why the state was changed last; warning: what a person should know from this tick on.
     """
 
@@ -26,6 +29,8 @@ class Tick:
     rows_passed: int
     forward_m: float
     sideways_m: float
+    pose: Pose = field(default_factory=Pose)
+    report: WheelReport = field(default_factory=WheelReport)
     warning: str = ""
     reason: str = ""
 

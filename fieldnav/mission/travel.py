@@ -26,6 +26,7 @@ class Travel:
         self.forward_m = 0.0
         self.sideways_m = 0.0
         self.pose = Pose()
+        self.report = WheelReport()
         self._track = Track(KEPT_POSES)
 
     def pose_at(self, stamp_s: float) -> Pose:
@@ -41,7 +42,7 @@ class Travel:
     def measure(self, now_s: float, report: WheelReport) -> None:
         """Take in the modules' newest words; while one is missing nothing is known and nothing added."""
         dt_s = 0.0 if self._measured_s is None else now_s - self._measured_s
-        self._measured_s = now_s
+        self._measured_s, self.report = now_s, report
         self._known = len(report.modules) == len(self._robot.modules)
         if not self._known:
             self.twist = STANDSTILL

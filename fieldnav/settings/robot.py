@@ -8,6 +8,7 @@ from pydantic import Field, model_validator
 from fieldnav.messages import Wheel
 from fieldnav.settings.camera import CameraLimits, Cameras
 from fieldnav.settings.model import FileName, Settings
+from fieldnav.settings.recording import RecordingSettings
 
 
 class Geometry(Settings):
@@ -104,6 +105,7 @@ class Robot(Settings):
     limits: Limits
     timeouts: Timeouts = Timeouts()
     battery: Battery = Battery()
+    recording: RecordingSettings = RecordingSettings()
     camera_limits: CameraLimits = CameraLimits()
 
     @model_validator(mode="after")

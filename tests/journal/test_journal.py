@@ -15,11 +15,13 @@ from fieldnav.errors import FieldnavError, OutputError
 from fieldnav.journal.entry import Entry, line_of
 from fieldnav.journal.journal import Journal, read
 from fieldnav.messages import CameraName, Evidence, Frame, Twist
+from states.names import Event
 
 START = datetime(2026, 5, 1, 8, 30, tzinfo=UTC)
 KEYS = [
     *("seq", "stamp_s", "utc", "event", "source", "target"),
     *("lane", "rows", "evidence", "frame", "command", "reason"),
+    *("forward_m", "sideways_m"),
 ]
 ENTRY = Entry(
     stamp_s=12.3456789,
@@ -28,7 +30,10 @@ ENTRY = Entry(
     target="Forward.Exit",
     lane=1,
     rows=3,
-    evidence=(Evidence("distance without plants", 0.21, 0.15, "m"), Evidence("plants", float("nan"))),
+    evidence=(
+        Evidence("distance without plants", 0.21, 0.15, "m", fires=Event.LANE_ENDED),
+        Evidence("plants", float("nan")),
+    ),
     frame=Frame(CameraName.FRONT, 185, 12.28, np.zeros((2, 2, 3), np.uint8)),
     command=Twist(0.3, 0.0, -0.0),
 )
@@ -42,7 +47,8 @@ def test_a_transition_becomes_one_line_with_all_that_was_judged(tmp_path: Path) 
     assert list(line) == KEYS
     assert (line["seq"], line["stamp_s"], line["utc"]) == (0, 12.345679, "2026-05-01T08:30:12.345Z")
     assert line["evidence"] == [
-        {"name": "distance without plants", "value": 0.21, "threshold": 0.15, "unit": "m"},
+        {"name": "distance without plants", "value": 0.21, "threshold": 0.15, "unit": "m"}
+        | {"fires": "lane ended", "bound": ">="},
         {"name": "plants", "value": None, "threshold": None, "unit": ""},
     ]
     assert line["frame"] == {"camera": "front", "sequence": 185, "stamp_s": 12.28}

@@ -1,0 +1,138 @@
+"""The records of a recording as they are read back. Keys of later versions are passed over."""
+
+from enum import Enum
+
+from pydantic import BaseModel, ConfigDict
+
+from fieldnav.faults import FaultKind
+from fieldnav.journal.entry import Judged
+from fieldnav.messages import CameraName, Wheel
+
+
+class Record(BaseModel):
+    """Frozen; what is not finite is written as null."""
+
+    model_config = ConfigDict(frozen=True, allow_inf_nan=False)
+
+
+class Call(Enum):
+    """What is done to a mission from outside, round by round and by a person."""
+
+    START = "start"
+    TICK = "tick"
+    PAUSE = "pause"
+    RESUME = "resume"
+    RESET = "reset"
+    END = "end"
+    BREAK_OFF = "break off"
+    NOTE = "note"
+
+
+class Seen(Record):
+    """Which frame: a camera's number of it, and when it was taken."""
+
+    camera: CameraName
+    sequence: int
+    stamp_s: float
+
+
+class Lost(Record):
+    """A camera that gave no frame, and why."""
+
+    camera: CameraName
+    fault: FaultKind
+    said: str
+
+
+class Wire(Record):
+    """One CAN frame, or, with an `error`, what the bus said instead of taking or giving one; data in hex."""
+
+    sent: bool
+    id: int = 0
+    extended: bool = False
+    remote: bool = False
+    error_frame: bool = False
+    data: str = ""
+    stamp_s: float = 0.0
+    error: str = ""
+
+
+class Round(Record):
+    """One call of the mission with all that it took in and gave out, in order: enough to do it again.
+
+    by: who asked, or why. fault: of a note. latched: of a break-off.
+    """
+
+    call: Call
+    now_s: float
+    by: str = ""
+    fault: FaultKind | None = None
+    latched: bool = False
+    frames: tuple[Seen, ...] = ()
+    lost: tuple[Lost, ...] = ()
+    wires: tuple[Wire, ...] = ()
+
+
+class Module(Record):
+    """One wheel module: what it was told and what it said."""
+
+    set_speed_mps: float | None = None
+    set_steering_rad: float | None = None
+    speed_mps: float | None = None
+    steering_rad: float | None = None
+    temperature_c: float | None = None
+    battery_v: float | None = None
+
+
+class Ticked(Record):
+    """How the mission stood after a tick: state, place by dead reckoning, command, wheels."""
+
+    now_s: float
+    state: str
+    lane: int
+    rows: int
+    rows_passed: int
+    forward_m: float
+    sideways_m: float
+    x_m: float
+    y_m: float
+    heading_rad: float
+    vx_mps: float
+    vy_mps: float
+    yaw_rate_rps: float
+    hold: bool = False
+    refused: str = ""
+    warning: str = ""
+    modules: dict[Wheel, Module] = {}
+    charge_percent: float | None = None
+
+
+class Line(Record):
+    """A crop row in a picture, see messages.RowLine."""
+
+    x_top_px: float
+    x_bottom_px: float
+    confidence: float
+
+
+class Stepped(Record):
+    """What a state judged, and on which frame, if any; `event`: what came of it, empty where nothing did."""
+
+    now_s: float
+    state: str
+    lane: int
+    forward_m: float
+    event: str = ""
+    reason: str = ""
+    evidence: tuple[Judged, ...] = ()
+    frame: Seen | None = None
+    rows: tuple[Line, ...] = ()
+    plants: int | None = None
+
+
+class Gap(Record):
+    """Pictures that are not in the recording because the disk was too slow."""
+
+    from_s: float
+    to_s: float
+    frames: int
