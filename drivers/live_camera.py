@@ -8,6 +8,7 @@ from typing import Any, Protocol
 import cv2
 import numpy as np
 
+from drivers.compression import compressed
 from drivers.recorded_camera import check_size
 from drivers.shown_source import shown
 from fieldnav.errors import DriverError
@@ -58,7 +59,10 @@ class LiveCamera:
         opener: Callable[[], Device],
         clock: Callable[[], float],
         pauses: Pauses = PAUSES,
+        quality: int | None = None,
     ) -> None:
+        """quality: of the JPEG that each frame is to come with, made on this camera's thread."""
+        self._quality = quality
         self._name, self._settings, self._clock, self._pauses = name, settings, clock, pauses
         self._opener, self._source = opener, shown(settings.source)
         self._newest: Frame | Trouble | None = None  # one value, so that a reader never sees half of a change
@@ -126,7 +130,8 @@ class LiveCamera:
         except DriverError as error:
             self._newest = Trouble(error.fault, str(error))
         else:
-            self._newest = Frame(self._name, self._sequence, stamp_s, taken)
+            frame = Frame(self._name, self._sequence, stamp_s, taken)
+            self._newest = frame if self._quality is None else compressed(frame, self._quality)
 
     def _opened_again(self) -> Device | None:
         try:

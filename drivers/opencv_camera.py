@@ -1,6 +1,7 @@
 """The camera of a robot file: a device, a pipeline or a stream, live, or what a camera has recorded."""
 
 from collections.abc import Callable
+from functools import partial
 from pathlib import Path
 
 import cv2
@@ -16,14 +17,16 @@ from fieldnav.messages import CameraName
 from fieldnav.settings.camera import CameraSettings
 
 
-def open_camera(name: CameraName, settings: CameraSettings, clock: Callable[[], float]) -> Camera:
-    """The camera of a robot file; `clock` is the one that the loop goes by.
+def open_camera(
+    name: CameraName, settings: CameraSettings, clock: Callable[[], float], quality: int | None = None
+) -> Camera:
+    """The camera of a robot file; `clock` is the one that the loop goes by, `quality` see LiveCamera.
 
     Raises DriverError, which names the source without its password, when it cannot be opened.
     """
     quieten()
     try:
-        return _opened(name, settings, clock)
+        return _opened(name, settings, clock, quality)
     except DriverError as error:
         raise DriverError(f"{name.value} camera: {error}", error.fault) from error
     except OSError as error:
@@ -31,7 +34,9 @@ def open_camera(name: CameraName, settings: CameraSettings, clock: Callable[[], 
         raise DriverError(said, FaultKind.CAMERA_UNPLUGGED) from error
 
 
-def _opened(name: CameraName, settings: CameraSettings, clock: Callable[[], float]) -> Camera:
+def _opened(
+    name: CameraName, settings: CameraSettings, clock: Callable[[], float], quality: int | None
+) -> Camera:
     source, kind = settings.source, kind_of(settings.source)
     match kind:
         case SourceKind.FOLDER:
@@ -41,13 +46,15 @@ def _opened(name: CameraName, settings: CameraSettings, clock: Callable[[], floa
         case SourceKind.VIDEO:
             return RecordedCamera(name, settings, Video(open_capture(source, kind)))
         case SourceKind.DEVICE:
-            return LiveCamera(name, settings, lambda: _tuned(open_capture(source, kind), settings), clock)
+            opener = partial(_tuned, source, kind, settings)
         case SourceKind.PIPELINE | SourceKind.STREAM:  # they say themselves what they give
-            return LiveCamera(name, settings, lambda: open_capture(source, kind), clock)
+            opener = partial(open_capture, source, kind)
+    return LiveCamera(name, settings, opener, clock, quality=quality)
 
 
-def _tuned(capture: cv2.VideoCapture, settings: CameraSettings) -> cv2.VideoCapture:
+def _tuned(source: str, kind: SourceKind, settings: CameraSettings) -> cv2.VideoCapture:
     """Ask a device for the robot file's size and rate; what it makes of that shows in its frames."""
+    capture = open_capture(source, kind)
     # Raw pictures of 1280x720 do not go through USB 2 at 15 a second.
     capture.set(cv2.CAP_PROP_FOURCC, cv2.VideoWriter.fourcc(*"MJPG"))
     capture.set(cv2.CAP_PROP_FRAME_WIDTH, settings.width_px)

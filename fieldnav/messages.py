@@ -75,12 +75,16 @@ class Wheel(Enum):
 
 @dataclass(frozen=True, slots=True)
 class Frame:
-    """One picture of one camera; `stamp_s` is when it was taken, `sequence` counts the camera's frames."""
+    """One picture of one camera; `stamp_s` is when it was taken, `sequence` counts the camera's frames.
+
+    jpeg: what the picture was decoded from, if it was compressed.
+    """
 
     camera: CameraName
     sequence: int
     stamp_s: float
     image: Image
+    jpeg: bytes | None = None
 
 
 @dataclass(frozen=True, slots=True)

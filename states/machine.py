@@ -43,7 +43,7 @@ class MissionMachine:
         self._model = _Model()
         self._interrupted: Path | None = None
         self.expected: Path | None = None
-        HierarchicalMachine(
+        self._machine = HierarchicalMachine(
             model=self._model,
             states=_nested(LEAVES),
             transitions=list(self._rows()),
@@ -69,6 +69,12 @@ class MissionMachine:
         elif event in (Event.RESET, Event.RESUME):
             self._interrupted = None
         return Change(source, event, self.leaf)
+
+    def bring(self, leaf: Path) -> None:
+        """Stand in a leaf without any event: in a replay, where the recorded mission stood."""
+        if leaf not in RESUMABLE and self.leaf in RESUMABLE:
+            self._interrupted = self.leaf
+        self._machine.set_state(_key(leaf))
 
     def _goes_on(self, event: Event, leaf: Path) -> bool:
         return leaf == (self._interrupted if event is Event.RESUME else self.expected)

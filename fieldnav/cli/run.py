@@ -56,6 +56,7 @@ def run(
     once: Annotated[
         bool, typer.Option("--once", help="End at the first fault; else the run waits for `fieldnav ctl`.")
     ] = False,
+    record: Annotated[bool, typer.Option(help="Write recording.mcap; replaying the run needs it.")] = True,
     as_json: Annotated[bool, typer.Option("--json", help="Print summary.json and nothing else.")] = False,
 ) -> int:
     """Drive a field with a robot, by sight.
@@ -71,6 +72,7 @@ def run(
     asked = parse_confirmations(confirm)
     known = _broken_off(resume, out_dir) if resume is not None else None
     order = replace(_order(robot, crop, lanes, side, known), dry_run=dry_run, once=once, confirm=asked)
+    order = replace(order, record=record)
     tell = (lambda finding: None) if as_json else (lambda finding: out().print(line(finding), soft_wrap=True))
     directory, summary = _drive(order, known, out_dir, tell, as_json)
     if summary is None or directory is None:
@@ -113,7 +115,7 @@ def _order(
         settings = known.settings
         chosen = load_crop(crop) if crop else settings.crop
         machine = load_robot(robot) if robot else settings.robot
-        order = Order(chosen, machine, known.lanes, known.side, resumed=known.place)
+        order = Order(chosen, machine, known.lanes, known.side, resumed=known.booking)
     else:
         if robot is None or crop is None:
             missing = "--robot" if robot is None else "--crop"
@@ -131,7 +133,6 @@ def _drive(
     """Check, then drive; nothing where a check has failed."""
     from fieldnav.cli.frames import quiet_videos  # noqa: PLC0415 - see _broken_off
     from fieldnav.cli.run_terminal import terminal  # noqa: PLC0415
-    from fieldnav.journal.journal import Journal  # noqa: PLC0415
     from fieldnav.mission.outset import begun, cleared, silenced  # noqa: PLC0415
     from fieldnav.mission.pace import RunClock  # noqa: PLC0415
     from fieldnav.mission.real import drive  # noqa: PLC0415
@@ -140,12 +141,12 @@ def _drive(
     quiet_videos()
     now_utc = datetime.now(UTC)
     clock = RunClock(known.begin_s(now_utc) if known else 0.0)
-    with opened(order.robot, clock) as (found, findings):
+    with opened(order.robot, clock, order.record) as (found, findings):
         gear = silenced(found) if order.dry_run else found
         failed = cleared(order, gear, findings, parent, clock, time.sleep, tell)
         if failed:
             print_error(f"nothing was driven: {'; '.join(f'{each.check}: {each.figure}' for each in failed)}")
             return None, None
         directory, begun_utc = begun(order, known, parent, now_utc)
-        with Journal(directory.journal, begun_utc) as journal, terminal(order.lanes, quiet) as watchers:
-            return directory, drive(order, gear, directory, journal, clock, watchers)
+        with terminal(order.lanes, quiet) as watchers:
+            return directory, drive(order, gear, directory, begun_utc, clock, watchers)

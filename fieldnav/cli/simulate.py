@@ -49,6 +49,7 @@ def simulate(
     sketch: Annotated[
         bool, typer.Option("--sketch", help="Draw plants as bare stars: faster, to try settings.")
     ] = False,
+    record: Annotated[bool, typer.Option(help="Write recording.mcap; replaying the run needs it.")] = True,
     as_json: Annotated[bool, typer.Option("--json", help="Print JSON and nothing else.")] = False,
     serve: Annotated[
         bool, typer.Option("--serve", help="Drive nothing: offer the robot on this machine, in real time.")
@@ -71,7 +72,9 @@ def simulate(
 
         refuse({"--video": video, "--realtime": realtime})
         return serve_robot(settings, robot, Side(side.value), port, sketch, robot_file, as_json)
-    run = replace(_run(settings, robot, Side(side.value), out_dir, video, realtime), sketch=sketch)
+    run = replace(
+        _run(settings, robot, Side(side.value), out_dir, video, realtime), sketch=sketch, record=record
+    )
     return _drive_for_programs(run) if as_json else _drive_for_people(run)
 
 

@@ -137,11 +137,10 @@ class Rig:
         if self.broken_off:
             self.mission.wheels.stop(self.now_s)
             return
-        self.mission.tick(self.now_s)
-        self.operating.watch()
+        self.operating.tick(self.now_s)
         jumped_s = self._clock.jumped_s()
         if abs(jumped_s) > JUMPED_S:
-            self.mission.note(self.now_s, Trouble(FaultKind.WALL_CLOCK, f"by {jumped_s:+.1f} s"))
+            self.operating.note(self.now_s, Trouble(FaultKind.WALL_CLOCK, f"by {jumped_s:+.1f} s"))
 
     def close(self) -> None:
         self.paper.close()

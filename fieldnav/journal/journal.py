@@ -2,12 +2,13 @@
 
 import json
 import os
+from collections.abc import Callable
 from contextlib import suppress
 from datetime import datetime
 from functools import partial
 from pathlib import Path
 from types import TracebackType
-from typing import Self
+from typing import Any, Self
 
 from pydantic import ValidationError
 
@@ -27,7 +28,11 @@ class Journal:
     Raises OutputError when the file cannot be written.
     """
 
-    def __init__(self, path: Path, start_utc: datetime) -> None:
+    def __init__(
+        self, path: Path, start_utc: datetime, heard: Callable[[dict[str, Any]], None] | None = None
+    ) -> None:
+        """heard: is given each line, as plain JSON values, once it is on the disk."""
+        self._heard = heard
         self._path = path
         self._start_utc = start_utc
         self._reserve = path.with_name(f".{path.name}.reserve")
@@ -62,6 +67,8 @@ class Journal:
         content = json.dumps(line, allow_nan=False).encode()
         append_line(self._file, content, partial(os.fsync, self._file.fileno()))
         self._sequence += 1
+        if self._heard is not None:
+            self._heard(line)
 
     def close(self) -> None:
         self._file.close()

@@ -1,7 +1,7 @@
 """settings.yaml: everything in force during a run, resolved, with the application's version."""
 
 from collections.abc import Hashable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
@@ -29,6 +29,7 @@ class Settings:
 
     crop: CropProfile
     robot: Robot
+    options: Mapping[str, Option] = field(default_factory=dict)
 
 
 def write_settings(
@@ -51,7 +52,8 @@ def read_settings(path: Path) -> Settings:
     label = str(path)
     document = parse_mapping(read_text(label), label)
     crop = checked(CropProfile, _part(document, "crop", label), f"{label}: crop")
-    return Settings(crop, checked(Robot, _part(document, "robot", label), f"{label}: robot"))
+    robot = checked(Robot, _part(document, "robot", label), f"{label}: robot")
+    return Settings(crop, robot, dict(_part(document, "options", label)))
 
 
 def _part(document: Mapping[Hashable, Any], name: str, label: str) -> Mapping[Any, Any]:

@@ -1,9 +1,9 @@
 """What the loop does, written down in the journal and told to those who watch."""
 
 from collections.abc import Iterable
+from typing import Protocol
 
 from fieldnav.journal.entry import Entry
-from fieldnav.journal.journal import Journal
 from fieldnav.messages import STANDSTILL
 from fieldnav.mission.gate import Passed
 from fieldnav.mission.tick import Observer, Tick
@@ -18,11 +18,19 @@ APART_S = 1.0
 """Holds that follow each other sooner are one: each line costs a write to the disk. Our choice."""
 
 
+class Recorded(Protocol):
+    """Where entries are kept: a journal, or in a replay a list."""
+
+    def record(self, entry: Entry) -> None:
+        """On return the entry is kept for good. Raises OutputError."""
+        ...
+
+
 class Chronicle:
     """Keeps the journal; an observer that fails is let go, and the journal says so."""
 
     def __init__(
-        self, journal: Journal, observers: Iterable[Observer], behaviours: Behaviours, travel: Travel
+        self, journal: Recorded, observers: Iterable[Observer], behaviours: Behaviours, travel: Travel
     ) -> None:
         self._journal, self._observers = journal, list(observers)
         self._behaviours, self._travel = behaviours, travel

@@ -3,10 +3,9 @@
 from collections.abc import Iterable
 from dataclasses import replace
 
-from fieldnav.journal.journal import Journal
 from fieldnav.journal.ledger import Ledger
 from fieldnav.mission.bookkeeping import Bookkeeping
-from fieldnav.mission.chronicle import Chronicle
+from fieldnav.mission.chronicle import Chronicle, Recorded
 from fieldnav.mission.tick import Observer
 from fieldnav.mission.travel import Travel
 from fieldnav.operator.confirmation import Confirmations
@@ -25,7 +24,7 @@ class Course:
         self,
         task: Task,
         travel: Travel,
-        journal: Journal,
+        journal: Recorded,
         observers: Iterable[Observer],
         ledger: Ledger | None,
         confirmations: Confirmations | None,
@@ -58,10 +57,18 @@ class Course:
         self.machine.expected = self.behaviours.lane.resumes
         change = self.machine.fire(step.event)
         self.chronicle.changed(now_s, change, step)
+        self._enter(now_s, change)
+        return change
+
+    def brought(self, now_s: float, change: Change) -> None:
+        """Take over a transition that another mission has made; only a replay does this."""
+        self.machine.bring(change.target)
+        self._enter(now_s, change)
+
+    def _enter(self, now_s: float, change: Change) -> None:
         self.behaviours.enter(change)
         self.books.book(now_s, change.target)
         self.ended_s = now_s if change.target in (FINISHED, RECOVERABLE, LATCHED) else None
-        return change
 
     def asked(self, step: Step) -> Step:
         """The step; a pause with a question instead where a person must say yes first."""

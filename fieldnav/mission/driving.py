@@ -38,14 +38,13 @@ class Driving:
         """Drive until the end. Raises KeyboardInterrupt where a signal asked for it, the wheels at rest."""
         mission = self._mission
         try:
-            mission.start(self._clock())
+            self._operating.start(self._clock())
             while not (mission.over and (once or self._stopped or mission.course.machine.leaf == FINISHED)):
                 now_s = self._pace.next()
                 if interruption.asked and not self._stopped:
                     self._stop(now_s, "interrupted by the operator")
                 self._answer(now_s)
-                mission.tick(now_s)
-                self._operating.watch()
+                self._operating.tick(now_s)
                 self._look_after(now_s)
         finally:
             self._come_to_rest()
@@ -76,16 +75,17 @@ class Driving:
 
     def _stop(self, now_s: float, reason: str) -> None:
         self._stopped = True
-        self._mission.end(now_s, reason)
+        self._operating.end(now_s, reason)
 
     def _look_after(self, now_s: float) -> None:
         """What happens beside the mission: the log of the bus, the wall clock."""
         if self._bus.failure is not None:
-            self._mission.break_off(now_s, Event.LATCH, str(Trouble(FaultKind.DISK_FULL, self._bus.failure)))
+            reason = str(Trouble(FaultKind.DISK_FULL, self._bus.failure))
+            self._operating.break_off(now_s, Event.LATCH, reason)
             self._bus.failure = None
         jumped_s = self._clock.jumped_s()
         if abs(jumped_s) > JUMPED_S:
-            self._mission.note(now_s, Trouble(FaultKind.WALL_CLOCK, f"by {jumped_s:+.1f} s"))
+            self._operating.note(now_s, Trouble(FaultKind.WALL_CLOCK, f"by {jumped_s:+.1f} s"))
 
     def _come_to_rest(self) -> None:
         """Command zero for as long as any ramp takes, however the run ended."""

@@ -7,9 +7,9 @@ from dataclasses import replace
 from drivers.ports import Camera, Wheels
 from fieldnav.errors import DriverError, FieldnavError, OutputError
 from fieldnav.faults import FaultKind, Reaction, Trouble
-from fieldnav.journal.journal import Journal
 from fieldnav.journal.ledger import Ledger
 from fieldnav.messages import CameraName, Frame, Motion, WheelReport
+from fieldnav.mission.chronicle import Recorded
 from fieldnav.mission.course import Course
 from fieldnav.mission.eyes import Eyes
 from fieldnav.mission.gate import Gate, Passed
@@ -46,7 +46,7 @@ class Mission:
         task: Task,
         cameras: Mapping[CameraName, Camera],
         wheels: Wheels,
-        journal: Journal,
+        journal: Recorded,
         observers: Iterable[Observer] = (),
         ledger: Ledger | None = None,
         confirmations: Confirmations | None = None,
@@ -60,6 +60,15 @@ class Mission:
         self.course = Course(task, self.travel, journal, observers, ledger, confirmations)
         self._frame_s = robot.timeouts.frame_s
         self._now_s: float | None = None
+
+    @property
+    def commanding(self) -> bool:
+        """Whether the wheels do what they are told, so that one that does not is at fault."""
+        return self._watches.commanding
+
+    @commanding.setter
+    def commanding(self, commanding: bool) -> None:
+        self._watches.commanding = commanding
 
     @property
     def over(self) -> bool:

@@ -39,8 +39,11 @@ class MotionVote:
         self._agreed_at = Pose()
 
     def suspect(self) -> None:
-        """A frame looks like the one before it turned: half of what is needed, for rows look much alike."""
-        self._votes = min(self._votes, 0) - AGAINST // 2
+        """A frame looks like the one before it turned: half of what is needed, for rows look much alike.
+
+        However often it is said, the other half must come of motion that was seen.
+        """
+        self._votes = min(self._votes, -(AGAINST // 2))
 
     def against(self, frame: Frame, pose: Pose) -> bool:
         """Whether it has become certain that the ground moves the other way."""

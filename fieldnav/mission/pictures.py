@@ -10,9 +10,8 @@ from fieldnav.evaluation.path import PathObserver
 from fieldnav.journal.map import RunMap, draw_map
 from fieldnav.journal.overlay import OverlayView, OverlayWriter, draw_overlay
 from fieldnav.journal.summary import Summary
-from fieldnav.messages import RowLine, Twist
+from fieldnav.messages import Twist
 from fieldnav.mission.tick import Tick
-from fieldnav.perception.tracking import Feature
 from fieldnav.settings.robot import Robot
 from fieldnav.simulation.plan import FieldPlan
 from states.names import Phase, text
@@ -43,7 +42,7 @@ class OverlayObserver:
             camera=sight.frame.camera.value,
             rows=sight.rows,
             centres=sight.centres,
-            feature=_feature_line(sight.feature, image.shape[1], image.shape[0]) if sight.feature else None,
+            feature=sight.feature.line(image.shape[1], image.shape[0]) if sight.feature else None,
             command=tick.passed.motion.twist if not tick.passed.motion.hold else Twist(),
             lane=f"lane {tick.lane} of {self._lanes}",
             note=tick.step.reason,
@@ -104,8 +103,3 @@ def _lines(plan: FieldPlan) -> tuple[list[np.ndarray], list[np.ndarray]]:
             s = np.arange(float(plan.s_first_m[lane, row]), float(plan.s_last_m[lane, row]), MAP_STEP_M)
             rows.append(plan.centreline.position(s, plan.rows.row_n(lane, row, s)))
     return lanes, rows
-
-
-def _feature_line(feature: Feature, width_px: int, height_px: int) -> RowLine:
-    bottom_px = (width_px - 1) / 2 + feature.offset_px
-    return RowLine(bottom_px + float(np.tan(feature.theta_rad)) * (height_px - 1), bottom_px)

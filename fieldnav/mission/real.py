@@ -4,6 +4,7 @@ import gc
 from collections.abc import Sequence
 from contextlib import ExitStack
 from dataclasses import dataclass, field
+from datetime import datetime
 
 import cv2
 
@@ -11,7 +12,7 @@ from drivers.can_log import LoggedBus
 from drivers.thorvald import ThorvaldWheels
 from fieldnav.journal.directory import RunDirectory
 from fieldnav.journal.journal import Journal
-from fieldnav.journal.ledger import Ledger
+from fieldnav.journal.ledger import Booking, Ledger
 from fieldnav.journal.summary import Headland, Summary, write_summary
 from fieldnav.messages import CameraName, Side
 from fieldnav.mission.driving import Driving
@@ -21,6 +22,7 @@ from fieldnav.mission.loop import Mission
 from fieldnav.mission.operating import Operating
 from fieldnav.mission.pace import Pace, RunClock
 from fieldnav.mission.status_board import StatusBoard
+from fieldnav.mission.tape import taping
 from fieldnav.mission.tick import Observer
 from fieldnav.operator.confirmation import Confirmations
 from fieldnav.operator.desk import Desk
@@ -30,14 +32,13 @@ from fieldnav.settings.crop import CropProfile
 from fieldnav.settings.robot import Robot
 from states.behaviour import Task
 from states.names import Event
-from states.place import Place
 
 
 @dataclass(frozen=True, slots=True)
 class Order:
-    """Everything that decides a run; `resumed` is the place at which one that was broken off goes on.
+    """Everything that decides a run; `resumed` is where one that was broken off goes on.
 
-    once: end at the first fault instead of waiting for a person.
+    record: whether it is recorded; once: end at the first fault instead of waiting for a person.
     """
 
     crop: CropProfile
@@ -47,7 +48,8 @@ class Order:
     dry_run: bool = False
     once: bool = False
     confirm: frozenset[Event] = field(default_factory=frozenset)
-    resumed: Place | None = None
+    record: bool = False
+    resumed: Booking | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -59,9 +61,14 @@ class Watchers:
 
 
 def drive(
-    order: Order, gear: Gear, directory: RunDirectory, journal: Journal, clock: RunClock, watchers: Watchers
+    order: Order,
+    gear: Gear,
+    directory: RunDirectory,
+    begun: datetime,
+    clock: RunClock,
+    watchers: Watchers,
 ) -> Summary:
-    """Drive the mission to its end, with what has been opened and found well.
+    """Drive the mission to its end, with what has been opened and found well; begun: second 0, in UTC.
 
     Raises FieldnavError, KeyboardInterrupt after a stop by signal; the wheels then stand.
     """
@@ -71,8 +78,10 @@ def drive(
         interruption = stack.enter_context(Interruption())
         ledger = stack.enter_context(Ledger(directory.ledger))
         desk = stack.enter_context(Desk.open(directory.path.name))
+        tape = stack.enter_context(taping(directory, order.robot, begun, order.record, waits=False))
+        journal = stack.enter_context(Journal(directory.journal, begun, tape.line))
         append = order.resumed is not None
-        bus = LoggedBus(gear.bus, directory.can_log, order.robot.can.channel, append, clock)
+        bus = LoggedBus(gear.bus, directory.can_log, order.robot.can.channel, append, clock, tape)
         stack.callback(bus.shutdown)
         wheels = ThorvaldWheels(order.robot, bus, listening=order.dry_run)
         figures = Figures(order.lanes, order.resumed.done if order.resumed else ())
@@ -81,19 +90,20 @@ def drive(
         mission = Mission(
             order.robot,
             Task(order.crop, pinholes, order.side, order.lanes),
-            gear.cameras,
+            tape.cameras(gear.cameras, order.robot),
             wheels,
             journal,
-            [figures, board, *watchers.observers],
+            [figures, board, tape, *watchers.observers],
             ledger,
             Confirmations(order.confirm),
             commanding=not order.dry_run,
         )
+        operating = Operating(mission, tape)
         if order.resumed is not None:
-            mission.course.resume_from(order.resumed)
+            operating.take_up(order.resumed)
         pace = Pace(clock)
         requests = (desk, *watchers.requests)
-        driving = Driving(mission, Operating(mission), board, bus, requests, pace, clock)
+        driving = Driving(mission, operating, board, bus, requests, pace, clock)
         gc.collect()
         gc.freeze()  # what lives for ever need not be looked through again while the robot drives
         try:

@@ -24,7 +24,9 @@ from fieldnav.journal.summary import Summary, write_summary
 from fieldnav.messages import CameraName, Side
 from fieldnav.mission.figures import Figures
 from fieldnav.mission.loop import TICK_S, Mission
+from fieldnav.mission.operating import Operating
 from fieldnav.mission.pictures import OverlayObserver, draw_run
+from fieldnav.mission.tape import taping
 from fieldnav.mission.tick import Observer
 from fieldnav.settings.crop import CropProfile
 from fieldnav.settings.field import FieldSettings
@@ -60,6 +62,7 @@ class Run:
     video: bool = False
     realtime: bool = False
     sketch: bool = False
+    record: bool = False
 
 
 @dataclass(frozen=True, slots=True)
@@ -87,18 +90,20 @@ def simulate(run: Run, observers: Sequence[Observer] = ()) -> Simulated:
     with ExitStack() as stack:
         host, far_end = open_virtual_pair()
         stack.callback(far_end.shutdown)
-        bus = LoggedBus(host, directory.can_log, run.robot.can.channel)
+        tape = stack.enter_context(taping(directory, run.robot, EPOCH, run.record, waits=True))
+        bus = LoggedBus(host, directory.can_log, run.robot.can.channel, tape=tape)
         stack.callback(bus.shutdown)
         field = run.field
         errors = module_errors(field.wheel_errors, field.seed, field.mirrored)
         modules = SimulatedModules(run.robot, far_end, errors, field.wheel_errors.can_delay_s)
         world = World(plan, field, run.robot, modules)
         renderer = (SketchRenderer if run.sketch else FieldRenderer)(plan, field, run.crop)
-        cameras = {name: SimulatedCamera(name, world, renderer) for name in CameraName}
+        eyes = {name: SimulatedCamera(name, world, renderer) for name in CameraName}
+        cameras = tape.cameras(eyes, run.robot)
         wheels = ThorvaldWheels(run.robot, bus)
-        journal = stack.enter_context(Journal(directory.journal, EPOCH))
+        journal = stack.enter_context(Journal(directory.journal, EPOCH, tape.line))
         figures, path = Figures(run.lanes), PathObserver(world)
-        watching: list[Observer] = [figures, path, *observers]
+        watching: list[Observer] = [figures, path, tape, *observers]
         if run.video:
             watching.append(stack.enter_context(OverlayObserver(directory.overlay, run.robot, run.lanes)))
         pinholes = {name: run.robot.cameras.get(name).pinhole() for name in CameraName}
@@ -107,7 +112,7 @@ def simulate(run: Run, observers: Sequence[Observer] = ()) -> Simulated:
         mission = Mission(run.robot, task, cameras, wheels, journal, watching, ledger)
         started = time.perf_counter()
         try:
-            _drive(mission, bus, world, run, started)
+            _drive(mission, Operating(mission, tape), bus, world, run, started)
         finally:
             _come_to_rest(wheels, world)
             wall_s = time.perf_counter() - started
@@ -127,23 +132,25 @@ def _come_to_rest(wheels: ThorvaldWheels, world: World) -> None:
             wheels.poll(world.now.stamp_s)
 
 
-def _drive(mission: Mission, bus: LoggedBus, world: World, run: Run, started: float) -> None:
+def _drive(
+    mission: Mission, operating: Operating, bus: LoggedBus, world: World, run: Run, started: float
+) -> None:
     """Tick until the mission is over; in real time no faster than the clock."""
     limit_s = run.lanes * (run.field.length_m / (SLOWEST * run.crop.speeds.follow_mps) + SWITCH_S)
-    mission.start(0.0)
+    operating.start(0.0)
     ticks = 0
     while not mission.over:
         ticks += 1
         now_s = ticks * TICK_S
         try:
             world.advance(now_s)
-            mission.tick(now_s)
+            operating.tick(now_s)
         except KeyboardInterrupt:
-            mission.break_off(now_s, Event.FAIL, "interrupted by the operator")
+            operating.break_off(now_s, Event.FAIL, "interrupted by the operator")
             raise
         if bus.failure is not None:
-            mission.break_off(now_s, Event.LATCH, bus.failure)
+            operating.break_off(now_s, Event.LATCH, bus.failure)
         if now_s > limit_s:
-            mission.break_off(now_s, Event.FAIL, f"not ended within {limit_s:.0f} s of the robot's time")
+            operating.break_off(now_s, Event.FAIL, f"not ended within {limit_s:.0f} s of the robot's time")
         if run.realtime:
             time.sleep(max(0.0, now_s - (time.perf_counter() - started)))

@@ -6,11 +6,10 @@ from datetime import datetime, timedelta
 from fieldnav.errors import FieldnavError
 from fieldnav.journal.directory import RunDirectory
 from fieldnav.journal.journal import read
-from fieldnav.journal.ledger import last_booking
+from fieldnav.journal.ledger import Booking, last_booking
 from fieldnav.journal.resolved import Settings, read_settings
 from fieldnav.messages import Side
 from fieldnav.mission.bookkeeping import place_of
-from states.place import Place
 
 GAP_S = 1.0
 """A run goes on at least so much later than its last line, also where the wall clock was set back."""
@@ -22,7 +21,7 @@ class BrokenOff:
 
     directory: RunDirectory
     settings: Settings
-    place: Place
+    booking: Booking
     lanes: int
     side: Side
     begun_utc: datetime
@@ -42,13 +41,14 @@ def broken_off(directory: RunDirectory) -> BrokenOff:
         )
     if booking.finished:
         raise FieldnavError(f"{directory.path}: the run is finished; there is nothing to resume")
+    place_of(booking)
     lines = read(directory.journal)
     if not lines:
         raise FieldnavError(f"{directory.journal}: holds no line; begin a new run")
     return BrokenOff(
         directory=directory,
         settings=read_settings(directory.settings),
-        place=place_of(booking),
+        booking=booking,
         lanes=booking.lanes,
         side=Side(booking.side),
         begun_utc=lines[0].utc - timedelta(seconds=lines[0].stamp_s),

@@ -19,7 +19,7 @@ class Watches:
     """Time, wheels, progress, battery, and the cameras' places and rates."""
 
     def __init__(self, robot: Robot, task: Task, commanding: bool) -> None:
-        self._commanding = commanding
+        self.commanding = commanding
         self._loop_s = robot.timeouts.loop_s
         self._least_percent = robot.battery.least_charge
         self._camera_watch = CameraWatch(task, robot.camera_limits)
@@ -36,7 +36,7 @@ class Watches:
 
     def wheels(self, now_s: float, report: WheelReport, taken_over: bool) -> Trouble | None:
         """The first wheel that does not do what it was told; none while another commands them."""
-        if taken_over or not self._commanding:
+        if taken_over or not self.commanding:
             self._wheel_watch.forget()
             return None
         return self._wheel_watch.trouble(now_s, report)
@@ -51,7 +51,7 @@ class Watches:
         if charge is not None and charge < self._least_percent:
             said = f"charge {charge:.0f} percent, limit {self._least_percent:.0f}"
             return Trouble(FaultKind.BATTERY_FLAT, said)
-        return self._progress.trouble(now_s, passed, standing and self._commanding)
+        return self._progress.trouble(now_s, passed, standing and self.commanding)
 
     def notes(
         self, leaf: Path, step: Step, forward_m: float, eyes: Eyes, guides: tuple[CameraName, ...]

@@ -1,7 +1,7 @@
 """The lane's rows from one frame to the next: a parallelogram on each (paper III-A.3)."""
 
 from dataclasses import dataclass
-from math import atan2
+from math import atan2, tan
 
 import numpy as np
 
@@ -37,6 +37,11 @@ class Feature:
 
     offset_px: float
     theta_rad: float
+
+    def line(self, width_px: int, height_px: int) -> RowLine:
+        """The line in an image of that size."""
+        bottom_px = (width_px - 1) / 2 + self.offset_px
+        return RowLine(bottom_px + tan(self.theta_rad) * (height_px - 1), bottom_px)
 
 
 def start(fit: LaneFit, stamp_s: float) -> TrackedRows:

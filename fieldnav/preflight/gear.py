@@ -27,13 +27,18 @@ class Gear:
 
 
 @contextmanager
-def opened(robot: Robot, clock: Callable[[], float]) -> Iterator[tuple[Gear, tuple[Finding, ...]]]:
-    """Open what there is, with a finding each, and close it again; `clock` is that of the cameras' stamps."""
+def opened(
+    robot: Robot, clock: Callable[[], float], recorded: bool = False
+) -> Iterator[tuple[Gear, tuple[Finding, ...]]]:
+    """Open what there is, with a finding each, and close it again; `clock` is that of the cameras' stamps.
+
+    recorded: live cameras give their frames as they are recorded.
+    """
     with ExitStack() as stack:
         bus, findings = _bus(robot.can, stack)
         cameras = {}
         for name in CameraName:
-            camera, finding = _camera(name, robot, clock, stack)
+            camera, finding = _camera(name, robot, clock, recorded, stack)
             findings.append(finding)
             if camera is not None:
                 cameras[name] = camera
@@ -52,11 +57,11 @@ def _bus(settings: Bus, stack: ExitStack) -> tuple[can.BusABC | None, list[Findi
 
 
 def _camera(
-    name: CameraName, robot: Robot, clock: Callable[[], float], stack: ExitStack
+    name: CameraName, robot: Robot, clock: Callable[[], float], recorded: bool, stack: ExitStack
 ) -> tuple[Camera | None, Finding]:
     check, settings = f"{name.value} camera opens", robot.cameras.get(name)
     try:
-        camera = open_camera(name, settings, clock)
+        camera = open_camera(name, settings, clock, robot.recording.quality if recorded else None)
     except DriverError as error:
         said = str(error).removeprefix(f"{name.value} camera: ")
         advice = f"see to its cable, or to cameras.{name.value}.source"

@@ -1,11 +1,14 @@
 """The records of a recording as they are read back. Keys of later versions are passed over."""
 
 from enum import Enum
+from typing import Self
 
+import can
 from pydantic import BaseModel, ConfigDict
 
 from fieldnav.faults import FaultKind
 from fieldnav.journal.entry import Judged
+from fieldnav.journal.ledger import Booking
 from fieldnav.messages import CameraName, Wheel
 
 
@@ -18,6 +21,7 @@ class Record(BaseModel):
 class Call(Enum):
     """What is done to a mission from outside, round by round and by a person."""
 
+    TAKE_UP = "take up"
     START = "start"
     TICK = "tick"
     PAUSE = "pause"
@@ -56,11 +60,36 @@ class Wire(Record):
     stamp_s: float = 0.0
     error: str = ""
 
+    @classmethod
+    def of(cls, frame: can.Message, sent: bool) -> Self:
+        """The record of a frame of python-can."""
+        return cls(
+            sent=sent,
+            id=frame.arbitration_id,
+            extended=frame.is_extended_id,
+            remote=frame.is_remote_frame,
+            error_frame=frame.is_error_frame,
+            data=bytes(frame.data).hex(),
+            stamp_s=frame.timestamp,
+        )
+
+    def message(self) -> can.Message:
+        """The frame as python-can has it."""
+        return can.Message(
+            timestamp=self.stamp_s,
+            arbitration_id=self.id,
+            is_extended_id=self.extended,
+            is_remote_frame=self.remote,
+            is_error_frame=self.error_frame,
+            data=bytes.fromhex(self.data),
+        )
+
 
 class Round(Record):
     """One call of the mission with all that it took in and gave out, in order: enough to do it again.
 
-    by: who asked, or why. fault: of a note. latched: of a break-off.
+    by: who asked, or why. fault: of a note. latched: of a break-off. lines: the numbers of the lines in the
+    journal that came of it. booking: the place at which a run that was broken off is taken up.
     """
 
     call: Call
@@ -71,6 +100,8 @@ class Round(Record):
     frames: tuple[Seen, ...] = ()
     lost: tuple[Lost, ...] = ()
     wires: tuple[Wire, ...] = ()
+    lines: tuple[int, ...] = ()
+    booking: Booking | None = None
 
 
 class Module(Record):

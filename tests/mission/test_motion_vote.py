@@ -148,3 +148,13 @@ def test_ground_without_anything_to_see_accuses_nobody() -> None:
         image = np.roll(noisy, random.integers(0, size[1], 2), (0, 1))
         pose = Pose(number * FOLLOWED_MPS * FRAME_S, 0.0, 0.0)
         assert not vote.against(Frame(CameraName.FRONT, number, number * FRAME_S, image), pose)
+
+
+def test_looking_like_turned_again_and_again_accuses_nobody_without_motion_that_says_so() -> None:
+    """Bare ground and plants that are drawn alike look turned; half of a verdict must be what was seen."""
+    vote, camera = MotionVote(ROBOT.cameras.front.pinhole()), ROBOT.cameras.front
+    bare = np.full((camera.height_px, camera.width_px, 3), 100, np.uint8)
+    for number in range(200):
+        vote.suspect()
+        pose = Pose(number * FOLLOWED_MPS * FRAME_S, 0.0, 0.0)
+        assert not vote.against(Frame(CameraName.FRONT, number, number * FRAME_S, bare), pose)

@@ -1,0 +1,151 @@
+"""What comes to a mission from outside and what goes out of it, on its way into the recording."""
+
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
+from datetime import UTC, datetime
+from typing import Any
+
+import can
+
+from drivers.compression import compressed
+from drivers.ports import Camera
+from fieldnav.errors import DriverError
+from fieldnav.faults import FaultKind
+from fieldnav.journal.directory import RunDirectory
+from fieldnav.journal.ledger import Booking
+from fieldnav.messages import CameraName, Frame
+from fieldnav.mission.taped import TapedFrame, TapedLine, TapedPinhole, TapedRound, TapedTick
+from fieldnav.mission.tick import Tick
+from fieldnav.recording.recorder import Recorder
+from fieldnav.recording.records import Call, Lost
+from fieldnav.settings.robot import Robot
+
+EPOCH = datetime(1970, 1, 1, tzinfo=UTC)
+
+
+class Tape:
+    """Gathers each round, one call of the mission with all that it took in and gave out; also an observer.
+
+    Without a recorder it does nothing.
+    """
+
+    def __init__(self, recorder: Recorder | None = None, begun_utc: datetime = EPOCH) -> None:
+        """begun_utc: the run's second 0."""
+        self._recorder, self._begun_utc = recorder, begun_utc
+        self._round: TapedRound | None = None
+        self._told = False
+
+    @contextmanager
+    def round(
+        self,
+        call: Call,
+        now_s: float,
+        by: str = "",
+        fault: FaultKind | None = None,
+        latched: bool = False,
+        booking: Booking | None = None,
+    ) -> Iterator[None]:
+        """All that passes within belongs to this call. What passes outside any round is not kept."""
+        if self._recorder is None:
+            yield
+            return
+        self._round = TapedRound(call, now_s, by, fault, latched, booking)
+        try:
+            yield
+        finally:
+            self._recorder.put(self._round)
+            self._round = None
+
+    def frame(self, frame: Frame) -> None:
+        """A frame was taken in."""
+        if self._recorder is not None and self._round is not None:
+            self._recorder.put(TapedFrame(frame, self._begun_utc))
+            self._round.frames.append(frame)
+
+    def lost(self, camera: CameraName, error: DriverError) -> None:
+        """A camera gave none."""
+        if self._round is not None:
+            self._round.lost.append(Lost(camera=camera, fault=error.fault, said=str(error)))
+
+    def wire(self, frame: can.Message, sent: bool) -> None:
+        """A CAN frame passed."""
+        if self._round is not None:
+            self._round.wires.append((sent, frame))
+
+    def refused(self, error: Exception, sent: bool) -> None:
+        """The bus failed instead."""
+        if self._round is not None:
+            self._round.wires.append((sent, str(error)))
+
+    def line(self, line: dict[str, Any]) -> None:
+        """The journal has a new line."""
+        if self._recorder is not None:
+            self._recorder.put(TapedLine(line, self._begun_utc))
+        if self._round is not None:
+            self._round.lines.append(line["seq"])
+
+    def watch(self, tick: Tick) -> None:
+        """A tick has ended."""
+        if self._recorder is not None:
+            self._recorder.put(TapedTick(tick, self._begun_utc))
+
+    def cameras(self, cameras: Mapping[CameraName, Camera], robot: Robot) -> Mapping[CameraName, Camera]:
+        """The same cameras, taped; calibrations are noted."""
+        if self._recorder is None:
+            return cameras
+        for name in cameras:
+            pinhole = robot.cameras.get(name).pinhole()
+            self._recorder.put(TapedPinhole(name, pinhole, self._begun_utc))
+        quality = robot.recording.quality
+        return {name: TapedCamera(name, camera, self, quality) for name, camera in cameras.items()}
+
+    def look_after(self) -> str:
+        """What there is to be told of the recording, once: that it has ended early."""
+        failure = self._recorder.failure if self._recorder else None
+        if failure is None or self._told:
+            return ""
+        self._told = True
+        return failure
+
+
+@contextmanager
+def taping(
+    directory: RunDirectory, robot: Robot, begun_utc: datetime, record: bool, waits: bool
+) -> Iterator[Tape]:
+    """A tape that is recorded into the run's directory, or, if nothing is to be recorded, by nobody.
+
+    waits: in simulation, where time stands still meanwhile; a robot does not wait for its disk.
+    """
+    if not record:
+        yield Tape()
+        return
+    recorder = Recorder(directory, robot.recording, begun_utc, waits)
+    try:
+        yield Tape(recorder, begun_utc)
+    finally:
+        recorder.close()
+
+
+class TapedCamera:
+    """The Camera port over another; what it gives is taped, and is the picture that the tape holds."""
+
+    def __init__(self, name: CameraName, camera: Camera, tape: Tape, quality: int) -> None:
+        """quality: of the JPEG, for frames that come without theirs."""
+        self._name, self._camera, self._tape, self._quality = name, camera, tape, quality
+        self._given: Frame | None = None
+        self._kept: Frame | None = None
+
+    def latest(self, now_s: float) -> Frame | None:
+        """The newest frame as it is recorded."""
+        try:
+            frame = self._camera.latest(now_s)
+        except DriverError as error:
+            self._tape.lost(self._name, error)
+            raise
+        if frame is not None and frame is not self._given:
+            self._given, self._kept = frame, compressed(frame, self._quality)
+            self._tape.frame(self._kept)
+        return self._kept
+
+    def close(self) -> None:
+        self._camera.close()

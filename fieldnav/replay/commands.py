@@ -1,0 +1,50 @@
+"""How the commands of a replay differ from those of the run."""
+
+from collections.abc import Iterator
+
+from fieldnav.mission.tick import Tick
+from fieldnav.recording.records import Ticked
+from fieldnav.replay.difference import Commands
+
+FORGOTTEN_S = 3.0
+"""So long after a difference the wheels count as obeying again: no watch looks back further."""
+
+
+class CommandWatch:
+    """An observer of the replay; holds each of its ticks against the one of then."""
+
+    def __init__(self, then: Iterator[Ticked]) -> None:
+        self._then = then
+        self._next: Ticked | None = next(then, None)
+        self.commands = Commands()
+        self._differed_s = -float("inf")
+
+    def watch(self, tick: Tick) -> None:
+        """Note by how much the velocities differ."""
+        while self._next is not None and self._next.now_s < tick.now_s:
+            self._next = next(self._then, None)
+        if self._next is None or self._next.now_s != tick.now_s:
+            return
+        then, now = self._next, tick.passed.motion.twist
+        most = self.commands
+        self.commands = most.model_copy(
+            update={
+                "vx_mps": max(most.vx_mps, abs(now.vx_mps - then.vx_mps)),
+                "vy_mps": max(most.vy_mps, abs(now.vy_mps - then.vy_mps)),
+                "yaw_rate_rps": max(most.yaw_rate_rps, abs(now.yaw_rate_rps - then.yaw_rate_rps)),
+            }
+        )
+
+    def sent(self, now_s: float, alike: bool) -> None:
+        """Whether the frames of a round are those of then, bit for bit."""
+        if alike:
+            return
+        self._differed_s = now_s
+        first_s = now_s if self.commands.first_s is None else self.commands.first_s
+        self.commands = self.commands.model_copy(
+            update={"rounds": self.commands.rounds + 1, "first_s": first_s}
+        )
+
+    def obeyed(self, now_s: float) -> bool:
+        """Whether the recorded wheels do what the replay tells them."""
+        return now_s - self._differed_s > FORGOTTEN_S

@@ -1,0 +1,133 @@
+"""The recorded frames and telemetry of a run through today's perception, states and CAN encoding."""
+
+from collections.abc import Callable, Sequence
+
+import cv2
+
+from fieldnav.errors import FieldnavError
+from fieldnav.journal.directory import RunDirectory
+from fieldnav.journal.entry import Line
+from fieldnav.journal.journal import read
+from fieldnav.journal.resolved import Settings
+from fieldnav.recording.recording import Recording
+from fieldnav.recording.records import Call
+from fieldnav.replay.commands import CommandWatch
+from fieldnav.replay.difference import Difference, Kind, Replayed, judged_otherwise
+from fieldnav.replay.following import Following
+from fieldnav.replay.mission import LEAF_NAMED, ReplayedMission
+from fieldnav.replay.rounds import Taken, taken
+from states.names import Event
+from states.table import LANE_LEAVES
+
+EVENTS = {event.value for event in Event}
+Tell = Callable[[float, float], None]
+"""Told the second of the run that is replayed, and its last."""
+
+
+def replay(
+    directory: RunDirectory, then: Settings, now: Settings | None = None, tell: Tell | None = None
+) -> Replayed:
+    """Replay a run; `now`: other settings than it was driven with. Raises FieldnavError."""
+    lines = read(directory.journal)
+    if not lines:
+        raise FieldnavError(f"{directory.journal}: holds no line; there is nothing to replay")
+    recording = Recording.open(directory)
+    if recording is None:
+        raise FieldnavError(f"{directory.recording}: is not there; allowed is a run that was recorded")
+    cv2.setNumThreads(1)
+    with recording:
+        return _Replay(directory, recording, lines, then, now or then).run(tell)
+
+
+class _Replay:
+    """One replay as it goes."""
+
+    def __init__(
+        self,
+        directory: RunDirectory,
+        recording: Recording,
+        lines: Sequence[Line],
+        then: Settings,
+        now: Settings,
+    ) -> None:
+        self._name, self._recording = directory.path.name, recording
+        self._lines = {line.seq: line for line in lines}
+        self._changed = now != then
+        self._following, self._notes = Following(), list[Difference]()
+        self._watch = CommandWatch(recording.ticks())
+        self._mission = ReplayedMission(now, lines[0].utc, [self._watch])
+        self._rounds, self._lacking = 0, 0
+        self._begun = False
+
+    def run(self, tell: Tell | None) -> Replayed:
+        now_s = 0.0
+        for each in taken(self._recording):
+            if not self._begun and each.round.call not in (Call.START, Call.TAKE_UP):
+                raise FieldnavError(
+                    f"{self._name}: the recording begins at {each.round.now_s:.1f} s, its beginning is gone; "
+                    "allowed is a recording that begins with the run (recording.budget_gb)"
+                )
+            self._begun, now_s = True, each.round.now_s
+            self._round(each)
+            if tell is not None:
+                tell(now_s, self._recording.end_s)
+        self._following.end()
+        return self._outcome(now_s)
+
+    def _round(self, each: Taken) -> None:
+        now_s = each.round.now_s
+        self._rounds += 1
+        self._lacking += len(each.lacking)
+        self._mission.obey(self._watch.obeyed(now_s))
+        now = self._mission.again(each)
+        then = [self._lines[seq] for seq in each.round.lines if seq in self._lines]
+        self._watch.sent(now_s, self._mission.bus.alike)
+        self._compare_notes(_notes(then), _notes(now))
+        self._following.take(_changes(then), _changes(now))
+        behind = self._following.behind(self._mission.mission.course.leaf in LANE_LEAVES)
+        if behind:
+            self._mission.bring(now_s, behind)
+            self._following.brought()
+
+    def _compare_notes(self, then: list[Line], now: list[Line]) -> None:
+        """Notes change no state: they are the same in the same round, or one of them is alone."""
+        for before, after in zip(then, now, strict=False):
+            if said := judged_otherwise(before, after):
+                self._notes.append(Difference(kind=Kind.NOTED, then=before, now=after, said=said))
+        rest_then, rest_now = then[len(now) :], now[len(then) :]
+        self._notes += [Difference(kind=Kind.MISSING, then=line) for line in rest_then]
+        self._notes += [Difference(kind=Kind.ADDED, now=line) for line in rest_now]
+
+    def _outcome(self, end_s: float) -> Replayed:
+        found = [*self._following.differences]
+        if not self._changed:  # other settings are other thresholds, and so judged otherwise everywhere
+            found += [*self._following.judged, *self._notes]
+        incomplete = []
+        if self._lacking:
+            incomplete.append(f"{self._lacking} pictures are not in the recording")
+        last = max(self._lines.values(), key=lambda line: line.seq)
+        if last.stamp_s > end_s + ROUNDING_S:
+            incomplete.append(f"the recording ends at {end_s:.2f} s, the journal at {last.stamp_s:.2f} s")
+        return Replayed(
+            run=self._name,
+            changed=self._changed,
+            rounds=self._rounds,
+            seconds=end_s,
+            transitions=self._following.transitions,
+            differences=tuple(sorted(found, key=lambda each: each.line.stamp_s)),
+            commands=self._watch.commands,
+            incomplete=tuple(incomplete),
+        )
+
+
+ROUNDING_S = 1e-5
+"""The journal has six decimals."""
+
+
+def _changes(lines: Sequence[Line]) -> list[Line]:
+    """The lines that are transitions."""
+    return [line for line in lines if line.event in EVENTS and line.target in LEAF_NAMED]
+
+
+def _notes(lines: Sequence[Line]) -> list[Line]:
+    return [line for line in lines if line.event not in EVENTS]
