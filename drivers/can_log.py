@@ -1,11 +1,9 @@
 """Opening the CAN bus, and writing every frame that passes to can.log."""
 
 import logging
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from collections.abc import Callable
 from itertools import count
 from pathlib import Path
-from typing import Protocol
 
 import can
 from can.interfaces.virtual import VirtualBus
@@ -45,14 +43,6 @@ def open_virtual_pair() -> tuple[can.BusABC, can.BusABC]:
     return open_bus(settings), open_bus(settings)
 
 
-class Tape(Protocol):
-    """Hears every frame as it passes, and every time that the bus fails instead."""
-
-    def wire(self, frame: can.Message, sent: bool) -> None: ...
-
-    def refused(self, error: Exception, sent: bool) -> None: ...
-
-
 class LoggedBus(can.BusABC):
     """A bus that writes each frame it sends or receives, once and in order, by the frames' own stamps.
 
@@ -71,7 +61,6 @@ class LoggedBus(can.BusABC):
         channel: str,
         append: bool = False,
         clock: Callable[[], float] | None = None,
-        tape: Tape | None = None,
     ) -> None:
         super().__init__(channel=channel)
         self.channel_info = f"{bus.channel_info}, logged"
@@ -81,7 +70,6 @@ class LoggedBus(can.BusABC):
         self._channel = channel
         self._flushed_s: float | None = None
         self._clock = clock
-        self._tape = tape
         self._log: can.CanutilsLogWriter | None = None
         try:
             self._log = can.CanutilsLogWriter(path, channel=channel, append=append)
@@ -91,14 +79,12 @@ class LoggedBus(can.BusABC):
 
     def send(self, msg: can.Message, timeout: float | None = None) -> None:
         """Send, then note; a frame that the bus refuses is not in the log."""
-        with self._heard(sent=True):
-            self._bus.send(msg, timeout)
+        self._bus.send(msg, timeout)
         msg.is_rx = False
         self._keep(msg)
 
     def recv(self, timeout: float | None = None) -> can.Message | None:
-        with self._heard(sent=False):
-            msg = self._bus.recv(timeout)
+        msg = self._bus.recv(timeout)
         if msg is not None:
             if self._clock is not None:
                 msg.timestamp = self._clock()
@@ -122,20 +108,8 @@ class LoggedBus(can.BusABC):
         finally:
             self._close_log()
 
-    @contextmanager
-    def _heard(self, sent: bool) -> Iterator[None]:
-        """Let the tape hear of what the bus below raises."""
-        try:
-            yield
-        except Exception as error:
-            if self._tape is not None:
-                self._tape.refused(error, sent)
-            raise
-
     def _keep(self, msg: can.Message) -> None:
         """Note a frame; if that fails, give the log up for good."""
-        if self._tape is not None:
-            self._tape.wire(msg, sent=not msg.is_rx)
         try:
             self._note(msg)
         except OSError as error:

@@ -9,6 +9,7 @@ from pathlib import Path
 from fieldnav.journal.entry import Line
 from fieldnav.journal.journal import Journal, read
 from fieldnav.journal.ledger import Ledger
+from fieldnav.mission.tape import Tape
 from fieldnav.simulation.injection_disk import FullDisk
 
 JOURNAL, LEDGER = "journal.jsonl", "ledger.jsonl"
@@ -54,9 +55,9 @@ class MovableLedger(Ledger):
 class PaperTrail:
     """What a run writes down as it goes, in one folder."""
 
-    def __init__(self, folder: Path, begun_utc: datetime) -> None:
+    def __init__(self, folder: Path, begun_utc: datetime, tape: Tape) -> None:
         self.folder = folder
-        self.journal = MovableJournal(folder / JOURNAL, begun_utc)
+        self.journal = MovableJournal(folder / JOURNAL, begun_utc, tape.line)
         self.ledger = MovableLedger(folder / LEDGER)
 
     def move_to(self, folder: Path) -> None:

@@ -21,6 +21,8 @@ from fieldnav.mission.driving import JUMPED_S
 from fieldnav.mission.loop import TICK_S, Mission
 from fieldnav.mission.operating import Operating
 from fieldnav.mission.pace import RunClock
+from fieldnav.mission.tape import Tape
+from fieldnav.mission.taped_bus import TapedBus
 from fieldnav.mission.tick import Tick
 from fieldnav.settings.crop import CropProfile
 from fieldnav.settings.field import FieldSettings
@@ -59,7 +61,9 @@ class Newest:
 class Rig:
     """Ticks the mission as a run does; holds the injectors, and `after` each round those who look on."""
 
-    def __init__(self, setting: Setting, folder: Path) -> None:
+    def __init__(self, setting: Setting, folder: Path, tape: Tape | None = None) -> None:
+        """tape: what records it, as of a run."""
+        tape = tape or Tape()
         cv2.setNumThreads(1)  # a forked process has none of OpenCV's threads
         field, robot = setting.field, setting.robot
         plan = sow(field, setting.crop, Side.RIGHT)
@@ -67,7 +71,8 @@ class Rig:
         assert isinstance(host, VirtualBus)
         self.bus = FaultyBus(host, field.seed)
         third = VirtualBus(host.channel_id, preserve_timestamps=True)
-        self._buses: tuple[can.BusABC, ...] = (self.bus, far_end, third)
+        taped = TapedBus(self.bus, tape)
+        self._buses: tuple[can.BusABC, ...] = (taped, far_end, third)
         errors = module_errors(field.wheel_errors, field.seed, field.mirrored)
         self.modules = SimulatedModules(robot, far_end, errors, field.wheel_errors.can_delay_s)
         self.intruder = Intruder(third)
@@ -77,20 +82,20 @@ class Rig:
         self.cameras = {
             name: FaultyCamera(name, SimulatedCamera(name, self.world, renderer)) for name in CameraName
         }
-        self.paper, self.path = PaperTrail(folder, BEGUN), PathObserver(self.world)
+        self.paper, self.path = PaperTrail(folder, BEGUN, tape), PathObserver(self.world)
         pinholes = {name: robot.cameras.get(name).pinhole() for name in CameraName}
         task = Task(setting.crop, pinholes, Side.RIGHT, field.lanes)
         self.newest = Newest()
         self.mission = Mission(
             robot,
             task,
-            self.cameras,
-            ThorvaldWheels(robot, self.bus),
+            tape.cameras(self.cameras, robot),
+            ThorvaldWheels(robot, taped),
             self.paper.journal,
-            [self.path, self.newest],
+            [self.path, self.newest, tape],
             self.paper.ledger,
         )
-        self.operating, self._clock = Operating(self.mission), RunClock()
+        self.operating, self._clock = Operating(self.mission, tape), RunClock()
         self.robot, self.crop = robot, setting.crop
         self.now_s, self._ticks = 0.0, 0
         self.absent: list[tuple[float, float]] = []  # spans of time in which the process does not run

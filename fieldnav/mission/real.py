@@ -23,6 +23,7 @@ from fieldnav.mission.operating import Operating
 from fieldnav.mission.pace import Pace, RunClock
 from fieldnav.mission.status_board import StatusBoard
 from fieldnav.mission.tape import taping
+from fieldnav.mission.taped_bus import TapedBus
 from fieldnav.mission.tick import Observer
 from fieldnav.operator.confirmation import Confirmations
 from fieldnav.operator.desk import Desk
@@ -81,9 +82,10 @@ def drive(
         tape = stack.enter_context(taping(directory, order.robot, begun, order.record, waits=False))
         journal = stack.enter_context(Journal(directory.journal, begun, tape.line))
         append = order.resumed is not None
-        bus = LoggedBus(gear.bus, directory.can_log, order.robot.can.channel, append, clock, tape)
-        stack.callback(bus.shutdown)
-        wheels = ThorvaldWheels(order.robot, bus, listening=order.dry_run)
+        bus = LoggedBus(gear.bus, directory.can_log, order.robot.can.channel, append, clock)
+        taped = TapedBus(bus, tape)
+        stack.callback(taped.shutdown)
+        wheels = ThorvaldWheels(order.robot, taped, listening=order.dry_run)
         figures = Figures(order.lanes, order.resumed.done if order.resumed else ())
         board = StatusBoard(directory.path.name, order.lanes)
         pinholes = {name: order.robot.cameras.get(name).pinhole() for name in CameraName}

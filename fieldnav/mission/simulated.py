@@ -27,6 +27,7 @@ from fieldnav.mission.loop import TICK_S, Mission
 from fieldnav.mission.operating import Operating
 from fieldnav.mission.pictures import OverlayObserver, draw_run
 from fieldnav.mission.tape import taping
+from fieldnav.mission.taped_bus import TapedBus
 from fieldnav.mission.tick import Observer
 from fieldnav.settings.crop import CropProfile
 from fieldnav.settings.field import FieldSettings
@@ -91,8 +92,9 @@ def simulate(run: Run, observers: Sequence[Observer] = ()) -> Simulated:
         host, far_end = open_virtual_pair()
         stack.callback(far_end.shutdown)
         tape = stack.enter_context(taping(directory, run.robot, EPOCH, run.record, waits=True))
-        bus = LoggedBus(host, directory.can_log, run.robot.can.channel, tape=tape)
-        stack.callback(bus.shutdown)
+        bus = LoggedBus(host, directory.can_log, run.robot.can.channel)
+        taped = TapedBus(bus, tape)
+        stack.callback(taped.shutdown)
         field = run.field
         errors = module_errors(field.wheel_errors, field.seed, field.mirrored)
         modules = SimulatedModules(run.robot, far_end, errors, field.wheel_errors.can_delay_s)
@@ -100,7 +102,7 @@ def simulate(run: Run, observers: Sequence[Observer] = ()) -> Simulated:
         renderer = (SketchRenderer if run.sketch else FieldRenderer)(plan, field, run.crop)
         eyes = {name: SimulatedCamera(name, world, renderer) for name in CameraName}
         cameras = tape.cameras(eyes, run.robot)
-        wheels = ThorvaldWheels(run.robot, bus)
+        wheels = ThorvaldWheels(run.robot, taped)
         journal = stack.enter_context(Journal(directory.journal, EPOCH, tape.line))
         figures, path = Figures(run.lanes), PathObserver(world)
         watching: list[Observer] = [figures, path, tape, *observers]

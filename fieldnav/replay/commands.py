@@ -1,7 +1,10 @@
-"""How the commands of a replay differ from those of the run."""
+"""What a replay does, tick by tick: what it judges, and how its commands differ from those of the run."""
 
 from collections.abc import Iterator
 
+from fieldnav.journal.chances import chances
+from fieldnav.journal.entry import Judged, judged_as_json
+from fieldnav.messages import Evidence
 from fieldnav.mission.tick import Tick
 from fieldnav.recording.records import Ticked
 from fieldnav.replay.difference import Commands
@@ -17,10 +20,12 @@ class CommandWatch:
         self._then = then
         self._next: Ticked | None = next(then, None)
         self.commands = Commands()
+        self._judged: tuple[Evidence, ...] = ()
         self._differed_s = -float("inf")
 
     def watch(self, tick: Tick) -> None:
-        """Note by how much the velocities differ."""
+        """Note what was judged, and by how much the velocities differ."""
+        self._judged = tick.step.evidence or self._judged
         while self._next is not None and self._next.now_s < tick.now_s:
             self._next = next(self._then, None)
         if self._next is None or self._next.now_s != tick.now_s:
@@ -34,6 +39,17 @@ class CommandWatch:
                 "yaw_rate_rps": max(most.yaw_rate_rps, abs(now.yaw_rate_rps - then.yaw_rate_rps)),
             }
         )
+
+    def lacked(self, event: str) -> str:
+        """What an event lacked at the last look, in words; empty where that is not known."""
+        judged = [Judged.model_validate(judged_as_json(each)) for each in self._judged]
+        for chance in chances(judged):
+            if chance.event == event and not chance.holds:
+                (least,) = chance.deciding
+                value = "unknown" if least.value is None else f"{least.value:.3g}"
+                wanted = f"{least.bound.value} {least.threshold:.3g} {least.unit}"
+                return f"{least.name} {value}, wanted {wanted}".strip()
+        return ""
 
     def sent(self, now_s: float, alike: bool) -> None:
         """Whether the frames of a round are those of then, bit for bit."""

@@ -1,15 +1,21 @@
 """Keeps a replay beside the run that it replays, and tells where the two differ.
 
 A replay may go its own way for a while: change its state earlier, later, once more. The robot of the
-recording, though, drives as it drove. Once the run has gone on by a second transition and the replay has not
-come after, what it sees is no longer what it would see: it is then brought to where the run was.
+recording, though, drives as it drove. Once the run has gone on by a second transition, or drives sideways
+where the replay would drive along, the replay sees what it would never see. It is then brought to where the
+run was.
 """
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from difflib import SequenceMatcher
+from types import MappingProxyType
 
 from fieldnav.journal.entry import Line
 from fieldnav.replay.difference import Difference, Kind, judged_otherwise
+from states.names import Event, Path, Phase, text
+from states.table import LANE_LEAVES, LEAVES
+
+LEAF_NAMED = {text(leaf): leaf for leaf in LEAVES}
 
 MOST_APART = 2
 """Transitions that the run may be ahead; the robot then does another thing than the replay thinks."""
@@ -33,29 +39,28 @@ class Following:
         self._now += now
         self._then_in = then[-1].target if then else self._then_in
         self._now_in = now[-1].target if now else self._now_in
-        if self._then_in == self._now_in and _lane(self._then) == _lane(self._now):
+        if self._then_in == self._now_in and _lanes(self._then) == _lanes(self._now):
             self._settle()
 
-    def behind(self, driving: bool) -> tuple[Line, ...]:
-        """The transitions through which the replay is to be brought, since the run has left it behind.
-
-        driving: whether the replay is in a state that may move the wheels; one that stands cannot come after.
-        """
-        if len(self._then) < (MOST_APART if driving else 1):
+    @property
+    def behind(self) -> tuple[Line, ...]:
+        """The transitions through which the replay is to be brought, since the run has left it behind."""
+        apart = MOST_APART if _manner(self._then_in) == _manner(self._now_in) else 1
+        if len(self._then) < apart:
             return ()
         matched = {id(line) for line, _ in self._pairs()}
         return tuple(line for line in self._then if id(line) not in matched)
 
-    def brought(self) -> None:
-        """The replay stands where the run did."""
-        self._settle()
+    def brought(self, lacked: Mapping[str, str]) -> None:
+        """The replay stands where the run did; what each event lacked for coming by itself."""
+        self._settle(lacked)
         self._now_in = self._then_in
 
     def end(self) -> None:
         """Nothing more comes."""
         self._settle()
 
-    def _settle(self) -> None:
+    def _settle(self, lacked: Mapping[str, str] = MappingProxyType({})) -> None:
         """The two are in the same state: what has not found its partner by now has none."""
         pairs = self._pairs()
         for then, now in pairs:
@@ -65,7 +70,9 @@ class Following:
                 self.judged.append(Difference(kind=Kind.JUDGED, then=then, now=now, said=said))
         old, new = ({id(pair[side]) for pair in pairs} for side in (0, 1))
         self.differences += [
-            Difference(kind=Kind.MISSING, then=line) for line in self._then if id(line) not in old
+            Difference(kind=Kind.MISSING, then=line, said=lacked.get(line.event, ""))
+            for line in self._then
+            if id(line) not in old
         ]
         self.differences += [
             Difference(kind=Kind.ADDED, now=line) for line in self._now if id(line) not in new
@@ -86,9 +93,14 @@ def _keys(lines: Sequence[Line]) -> list[tuple[str, str]]:
     return [(line.event, line.target) for line in lines]
 
 
-def _lane(lines: Sequence[Line]) -> int:
-    """How many lanes the lines go on by."""
-    return sum(line.event == LANE_CENTRED for line in lines)
+def _lanes(lines: Sequence[Line]) -> int:
+    """By how many lanes the lines go on."""
+    return sum(line.event == Event.LANE_CENTRED.value for line in lines)
 
 
-LANE_CENTRED = "lane centred"
+def _manner(state: str) -> Path | Phase | None:
+    """How the robot moves in a state: along the lane, aside, or in its own way where it stands."""
+    leaf = LEAF_NAMED.get(state)
+    if leaf is None or leaf not in LANE_LEAVES:
+        return leaf
+    return Phase.SIDESTEP if Phase.SIDESTEP in leaf else Phase.FOLLOW

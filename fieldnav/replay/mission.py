@@ -16,13 +16,11 @@ from fieldnav.mission.tick import Observer
 from fieldnav.operator.confirmation import Confirmations
 from fieldnav.recording.records import Call, Round
 from fieldnav.replay.again import ReplayedBus, ReplayedCamera
+from fieldnav.replay.following import LEAF_NAMED
 from fieldnav.replay.rounds import Taken
 from states.behaviour import Task
 from states.machine import Change
-from states.names import Event, text
-from states.table import LEAVES
-
-LEAF_NAMED = {text(leaf): leaf for leaf in LEAVES}
+from states.names import Event
 
 
 class Lines:
@@ -71,6 +69,9 @@ class ReplayedMission:
     def obey(self, obeyed: bool) -> None:
         """Whether the recorded wheels do what this mission tells them; a dry run's never did."""
         self.mission.commanding = obeyed and not self._silent
+
+    def close(self) -> None:
+        self.bus.shutdown()
 
     def _do(self, round: Round) -> None:
         now_s, operating = round.now_s, self._operating

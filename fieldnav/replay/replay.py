@@ -1,6 +1,7 @@
 """The recorded frames and telemetry of a run through today's perception, states and CAN encoding."""
 
 from collections.abc import Callable, Sequence
+from contextlib import closing
 
 import cv2
 
@@ -13,11 +14,10 @@ from fieldnav.recording.recording import Recording
 from fieldnav.recording.records import Call
 from fieldnav.replay.commands import CommandWatch
 from fieldnav.replay.difference import Difference, Kind, Replayed, judged_otherwise
-from fieldnav.replay.following import Following
-from fieldnav.replay.mission import LEAF_NAMED, ReplayedMission
+from fieldnav.replay.following import LEAF_NAMED, Following
+from fieldnav.replay.mission import ReplayedMission
 from fieldnav.replay.rounds import Taken, taken
 from states.names import Event
-from states.table import LANE_LEAVES
 
 EVENTS = {event.value for event in Event}
 Tell = Callable[[float, float], None]
@@ -35,8 +35,8 @@ def replay(
     if recording is None:
         raise FieldnavError(f"{directory.recording}: is not there; allowed is a run that was recorded")
     cv2.setNumThreads(1)
-    with recording:
-        return _Replay(directory, recording, lines, then, now or then).run(tell)
+    with recording, closing(_Replay(directory, recording, lines, then, now or then)) as going:
+        return going.run(tell)
 
 
 class _Replay:
@@ -74,6 +74,9 @@ class _Replay:
         self._following.end()
         return self._outcome(now_s)
 
+    def close(self) -> None:
+        self._mission.close()
+
     def _round(self, each: Taken) -> None:
         now_s = each.round.now_s
         self._rounds += 1
@@ -84,10 +87,10 @@ class _Replay:
         self._watch.sent(now_s, self._mission.bus.alike)
         self._compare_notes(_notes(then), _notes(now))
         self._following.take(_changes(then), _changes(now))
-        behind = self._following.behind(self._mission.mission.course.leaf in LANE_LEAVES)
-        if behind:
+        if behind := self._following.behind:
+            lacked = {line.event: self._watch.lacked(line.event) for line in behind}
             self._mission.bring(now_s, behind)
-            self._following.brought()
+            self._following.brought(lacked)
 
     def _compare_notes(self, then: list[Line], now: list[Line]) -> None:
         """Notes change no state: they are the same in the same round, or one of them is alone."""

@@ -30,4 +30,4 @@ def changed(settings: Model, key: str, text: str) -> Model:
         place[last] = yaml.safe_load(text)
     except yaml.YAMLError as error:
         raise SettingsError(f"--set {key}: '{shortened(one_line(text))}' is no value") from error
-    return checked(type(settings), document, f"--set {key}")
+    return checked(type(settings), document, "--set")

@@ -1,0 +1,105 @@
+"""A replay repeats an unchanged run bit for bit, and tells exactly what a change moves."""
+
+import shutil
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+
+from fieldnav.errors import FieldnavError
+from fieldnav.journal.directory import RunDirectory
+from fieldnav.journal.journal import read
+from fieldnav.journal.resolved import Settings, read_settings
+from fieldnav.replay.difference import Kind
+from fieldnav.replay.replay import replay
+
+
+def with_headland(settings: Settings, more_m: float) -> Settings:
+    switching = settings.crop.switching
+    wider = switching.model_copy(update={"headland_m": switching.headland_m + more_m})
+    return replace(settings, crop=settings.crop.model_copy(update={"switching": wider}))
+
+
+def test_an_unchanged_run_is_repeated_bit_for_bit(recorded: RunDirectory) -> None:
+    done = replay(recorded, read_settings(recorded.settings))
+
+    assert done.same, done
+    assert done.transitions == len(read(recorded.journal)) > 10
+
+
+def test_leaving_the_lane_earlier_moves_that_and_what_follows_of_it(recorded: RunDirectory) -> None:
+    then = read_settings(recorded.settings)
+
+    done = replay(recorded, then, with_headland(then, -0.1))
+
+    left = [each for each in done.differences if "left" in each.line.event]
+    assert [each.line.event for each in left] == ["lane left", "last lane left"]
+    for each in left:
+        assert each.kind is Kind.MOVED
+        assert each.later_m == pytest.approx(-0.1, abs=0.08)
+    rest = [each for each in done.differences if each not in left]
+    assert all("Sidestep" in each.line.source for each in rest), "where it begins 0.1 m earlier"
+    assert done.commands.first_s < left[0].then.stamp_s
+
+
+def test_leaving_the_lane_later_than_the_robot_drove_is_said_to_lack_that_much(
+    recorded: RunDirectory,
+) -> None:
+    then = read_settings(recorded.settings)
+
+    done = replay(recorded, then, with_headland(then, 0.1))
+
+    left = [each for each in done.differences if "left" in each.line.event]
+    assert [each.kind for each in left] == [Kind.MISSING, Kind.MISSING]
+    assert "to the place to stop" in left[0].said
+
+
+def test_a_transition_that_the_journal_has_otherwise_is_found(recorded: RunDirectory, tmp_path: Path) -> None:
+    copy = RunDirectory(shutil.copytree(recorded.path, tmp_path / "run"))
+    lines = copy.journal.read_text().splitlines()
+    changed = [
+        line.replace('"lane ended"', '"rows lost"') if "lane ended" in line else line for line in lines
+    ]
+    copy.journal.write_text("\n".join(changed) + "\n")
+
+    done = replay(copy, read_settings(copy.settings))
+
+    assert {each.line.event for each in done.differences} >= {"rows lost", "lane ended"}
+
+
+def test_a_quantity_that_the_journal_has_otherwise_is_found(recorded: RunDirectory, tmp_path: Path) -> None:
+    copy = RunDirectory(shutil.copytree(recorded.path, tmp_path / "run"))
+    text = copy.journal.read_text()
+    name = '"probability that the lane has ended", "value": '
+    assert name in text
+    copy.journal.write_text(text.replace(name, f"{name}1", 1))
+
+    done = replay(copy, read_settings(copy.settings))
+
+    assert [each.kind for each in done.differences] == [Kind.JUDGED]
+    assert "probability that the lane has ended" in done.differences[0].said
+
+
+def test_a_recording_that_broke_off_is_replayed_as_far_as_it_goes(
+    recorded: RunDirectory, tmp_path: Path
+) -> None:
+    copy = RunDirectory(shutil.copytree(recorded.path, tmp_path / "run"))
+    content = copy.recording.read_bytes()
+    copy.recording.write_bytes(content[: len(content) // 2])
+
+    done = replay(copy, read_settings(copy.settings))
+
+    assert not done.differences
+    assert not done.commands.rounds
+    assert "the recording ends at" in done.incomplete[0]
+    assert not done.same
+
+
+def test_a_run_without_recording_says_so(recorded: RunDirectory, tmp_path: Path) -> None:
+    copy = RunDirectory(shutil.copytree(recorded.path, tmp_path / "run"))
+    copy.recording.unlink()
+
+    with pytest.raises(
+        FieldnavError, match=r"recording.mcap: is not there; allowed is a run that was recorded"
+    ):
+        replay(copy, read_settings(copy.settings))
