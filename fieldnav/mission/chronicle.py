@@ -14,6 +14,7 @@ from states.machine import Change
 from states.names import Path, text
 from states.table import LANE_LEAVES
 
+OBSERVER_LOST = "observer lost"
 APART_S = 1.0
 """Holds that follow each other sooner are one: each line costs a write to the disk. Our choice."""
 
@@ -86,7 +87,7 @@ class Chronicle:
         except Exception as error:  # who only watches may not stop the mission
             self._observers.remove(observer)
             reason = f"{type(observer).__name__} watches no longer: {type(error).__name__}: {error}"
-            self.noted(tick.now_s, "observer lost", tick.state, Step(reason=reason))
+            self.noted(tick.now_s, OBSERVER_LOST, tick.state, Step(reason=reason))
 
     def _record(self, now_s: float, event: str, source: Path, target: Path, step: Step) -> None:
         lane = self._behaviours.lane

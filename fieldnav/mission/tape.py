@@ -9,7 +9,7 @@ import can
 
 from drivers.compression import compressed
 from drivers.ports import Camera
-from fieldnav.errors import DriverError
+from fieldnav.errors import DriverError, OutputError
 from fieldnav.faults import FaultKind
 from fieldnav.journal.directory import RunDirectory
 from fieldnav.journal.ledger import Booking
@@ -17,7 +17,7 @@ from fieldnav.messages import CameraName, Frame
 from fieldnav.mission.taped import TapedFrame, TapedLine, TapedPinhole, TapedRound, TapedTick
 from fieldnav.mission.tick import Tick
 from fieldnav.recording.recorder import Recorder
-from fieldnav.recording.records import Call, Lost
+from fieldnav.recording.records import Call, Lost, Seen
 from fieldnav.settings.robot import Robot
 
 EPOCH = datetime(1970, 1, 1, tzinfo=UTC)
@@ -33,7 +33,6 @@ class Tape:
         """begun_utc: the run's second 0."""
         self._recorder, self._begun_utc = recorder, begun_utc
         self._round: TapedRound | None = None
-        self._told = False
 
     @contextmanager
     def round(
@@ -53,14 +52,16 @@ class Tape:
         try:
             yield
         finally:
-            self._recorder.put(self._round)
+            if self._recorder is not None:
+                self._recorder.put(self._round)
             self._round = None
 
     def frame(self, frame: Frame) -> None:
         """A frame was taken in."""
         if self._recorder is not None and self._round is not None:
-            self._recorder.put(TapedFrame(frame, self._begun_utc))
-            self._round.frames.append(frame)
+            seen = Seen(camera=frame.camera, sequence=frame.sequence, stamp_s=frame.stamp_s)
+            self._recorder.put(TapedFrame(seen, frame.jpeg or b"", self._begun_utc))
+            self._round.frames.append(seen)
 
     def lost(self, camera: CameraName, error: DriverError) -> None:
         """A camera gave none."""
@@ -85,9 +86,13 @@ class Tape:
             self._round.lines.append(line["seq"])
 
     def watch(self, tick: Tick) -> None:
-        """A tick has ended."""
-        if self._recorder is not None:
-            self._recorder.put(TapedTick(tick, self._begun_utc))
+        """A tick has ended. Raises OutputError, once, when the recording has ended before the run."""
+        if self._recorder is None:
+            return
+        if self._recorder.failure is not None:
+            said, self._recorder = self._recorder.failure, None
+            raise OutputError(said)
+        self._recorder.put(TapedTick.of(tick, self._begun_utc))
 
     def cameras(self, cameras: Mapping[CameraName, Camera], robot: Robot) -> Mapping[CameraName, Camera]:
         """The same cameras, taped; calibrations are noted."""
@@ -98,14 +103,6 @@ class Tape:
             self._recorder.put(TapedPinhole(name, pinhole, self._begun_utc))
         quality = robot.recording.quality
         return {name: TapedCamera(name, camera, self, quality) for name, camera in cameras.items()}
-
-    def look_after(self) -> str:
-        """What there is to be told of the recording, once: that it has ended early."""
-        failure = self._recorder.failure if self._recorder else None
-        if failure is None or self._told:
-            return ""
-        self._told = True
-        return failure
 
 
 @contextmanager

@@ -2,15 +2,16 @@
 
 import json
 from collections.abc import Iterator
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from datetime import datetime, timedelta
-from typing import Any
+from typing import Any, Self
 
 import can
+import numpy as np
 
 from fieldnav.faults import FaultKind
 from fieldnav.journal.ledger import Booking
-from fieldnav.messages import CameraName, Frame
+from fieldnav.messages import CameraName
 from fieldnav.mission.tick import Tick
 from fieldnav.mission.ticked import caption, stepped, ticked
 from fieldnav.pinhole import Pinhole
@@ -20,6 +21,7 @@ from fieldnav.recording.message import Message, Topic
 from fieldnav.recording.records import Call, Lost, Round, Seen, Wire
 from states.names import Event
 
+NO_IMAGE = np.empty((0, 0, 3), np.uint8)
 SMALL_BYTES = 4096
 """About what a tick holds in memory while it waits; its picture waits by itself."""
 STOPS = {Event.FAIL.value: Level.ERROR, Event.LATCH.value: Level.FATAL, Event.PAUSE.value: Level.WARNING}
@@ -35,7 +37,7 @@ class TapedRound:
     fault: FaultKind | None = None
     latched: bool = False
     booking: Booking | None = None
-    frames: list[Frame] = field(default_factory=list)
+    frames: list[Seen] = field(default_factory=list)
     lost: list[Lost] = field(default_factory=list)
     wires: list[tuple[bool, can.Message | str]] = field(default_factory=list)
     lines: list[int] = field(default_factory=list)
@@ -49,7 +51,7 @@ class TapedRound:
             by=self.by,
             fault=self.fault,
             latched=self.latched,
-            frames=tuple(seen(frame) for frame in self.frames),
+            frames=tuple(self.frames),
             lost=tuple(self.lost),
             wires=tuple(
                 Wire(sent=sent, error=what) if isinstance(what, str) else Wire.of(what, sent)
@@ -64,32 +66,45 @@ class TapedRound:
 
 @dataclass(frozen=True, slots=True)
 class TapedFrame:
-    """A picture that the mission has taken in."""
+    """A picture that the mission has taken in, compressed."""
 
-    frame: Frame
+    seen: Seen
+    jpeg: bytes
     begun_utc: datetime
     picture: bool = True
 
     @property
     def size(self) -> int:
-        """The compressed picture's; the other one is the mission's as well."""
-        return len(self.frame.jpeg or b"")
+        return len(self.jpeg)
 
     def messages(self) -> Iterator[Message]:
-        frame = self.frame
-        utc = self.begun_utc + timedelta(seconds=frame.stamp_s)
-        content = compressed_image(frame.camera, utc, frame.jpeg or b"")
-        yield Message(Topic.image(frame.camera), frame.stamp_s, content, frame.sequence)
+        seen = self.seen
+        content = compressed_image(seen.camera, self.begun_utc + timedelta(seconds=seen.stamp_s), self.jpeg)
+        yield Message(Topic.image(seen.camera), seen.stamp_s, content, seen.sequence)
 
 
 @dataclass(frozen=True, slots=True)
 class TapedTick:
-    """How the mission stood after a tick, and, on a fresh look, what was judged and seen."""
+    """How the mission stood after a tick, and, on a fresh look, what was judged and seen.
+
+    The picture is not held while this waits; size_px: its width and height.
+    """
 
     tick: Tick
     begun_utc: datetime
+    size_px: tuple[int, int]
     size: int = SMALL_BYTES
     picture: bool = False
+
+    @classmethod
+    def of(cls, tick: Tick, begun_utc: datetime) -> Self:
+        """The tick, without its picture."""
+        step, sight = tick.step, tick.step.sight
+        if sight is None:
+            return cls(tick, begun_utc, (0, 0))
+        height, width = sight.frame.image.shape[:2]
+        blind = replace(sight, frame=replace(sight.frame, image=NO_IMAGE, jpeg=None))
+        return cls(replace(tick, step=replace(step, sight=blind)), begun_utc, (width, height))
 
     def messages(self) -> Iterator[Message]:
         tick, sight = self.tick, self.tick.step.sight
@@ -103,9 +118,8 @@ class TapedTick:
         if sight is not None:
             frame = sight.frame
             seen_utc = self.begun_utc + timedelta(seconds=frame.stamp_s)
-            height, width = frame.image.shape[:2]
-            line = sight.feature.line(width, height) if sight.feature else None
-            drawn = overlay(seen_utc, (width, height), sight.rows, sight.centres, line, caption(tick))
+            line = sight.feature.line(*self.size_px) if sight.feature else None
+            drawn = overlay(seen_utc, self.size_px, sight.rows, sight.centres, line, caption(tick))
             yield Message(Topic.overlay(frame.camera), frame.stamp_s, drawn, frame.sequence)
 
 
@@ -141,8 +155,3 @@ class TapedPinhole:
         yield Message(
             Topic.calibration(self.camera), 0.0, calibration(self.camera, self.begun_utc, self.pinhole)
         )
-
-
-def seen(frame: Frame) -> Seen:
-    """Which frame it is."""
-    return Seen(camera=frame.camera, sequence=frame.sequence, stamp_s=frame.stamp_s)

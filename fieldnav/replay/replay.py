@@ -10,6 +10,7 @@ from fieldnav.journal.directory import RunDirectory
 from fieldnav.journal.entry import Line
 from fieldnav.journal.journal import read
 from fieldnav.journal.resolved import Settings
+from fieldnav.mission.chronicle import OBSERVER_LOST
 from fieldnav.recording.recording import Recording
 from fieldnav.recording.records import Call
 from fieldnav.replay.commands import CommandWatch
@@ -133,4 +134,5 @@ def _changes(lines: Sequence[Line]) -> list[Line]:
 
 
 def _notes(lines: Sequence[Line]) -> list[Line]:
-    return [line for line in lines if line.event not in EVENTS]
+    """The others, but for what is said of those who only looked on."""
+    return [line for line in lines if line.event not in EVENTS and line.event != OBSERVER_LOST]
