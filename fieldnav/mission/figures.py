@@ -40,6 +40,10 @@ class Figures:
                 self._done.add(tick.lane)
             self._finished = tick.change.target == FINISHED
 
+    def warn(self, *said: str) -> None:
+        """What a person should know besides."""
+        self._warnings += said
+
     def summary(
         self, wall_s: float, headland: Headland, truth: Truth | None, loop: LoopHealth | None = None
     ) -> Summary:

@@ -111,6 +111,7 @@ def drive(
         try:
             driving.run(interruption, order.once)
         finally:
+            figures.warn(*tape.end())
             summary = figures.summary(clock(), Headland(), None, pace.health())
             write_summary(directory.summary, summary)
         return summary

@@ -118,6 +118,7 @@ def simulate(run: Run, observers: Sequence[Observer] = ()) -> Simulated:
         finally:
             _come_to_rest(wheels, world)
             wall_s = time.perf_counter() - started
+            figures.warn(*tape.end())
             summary = figures.summary(wall_s, headland(world, path), judge(world, path, run.lanes))
             write_summary(directory.summary, summary)
             draw_run(directory.map, plan, path, run.field.name, summary)

@@ -31,7 +31,8 @@ class Tape:
 
     def __init__(self, recorder: Recorder | None = None, begun_utc: datetime = EPOCH) -> None:
         """begun_utc: the run's second 0."""
-        self._recorder, self._begun_utc = recorder, begun_utc
+        self._recorder = self._closing = recorder
+        self._begun_utc = begun_utc
         self._round: TapedRound | None = None
 
     @contextmanager
@@ -104,6 +105,14 @@ class Tape:
         quality = robot.recording.quality
         return {name: TapedCamera(name, camera, self, quality) for name, camera in cameras.items()}
 
+    def end(self) -> tuple[str, ...]:
+        """Write what waits and complete the recording; what a person should know of it. May be repeated."""
+        if self._closing is None:
+            return ()
+        closing, self._closing = self._closing, None
+        closing.close()
+        return tuple(said for said in (closing.failure, *closing.notes) if said)
+
 
 @contextmanager
 def taping(
@@ -116,11 +125,11 @@ def taping(
     if not record:
         yield Tape()
         return
-    recorder = Recorder(directory, robot.recording, begun_utc, waits)
+    tape = Tape(Recorder(directory, robot.recording, begun_utc, waits), begun_utc)
     try:
-        yield Tape(recorder, begun_utc)
+        yield tape
     finally:
-        recorder.close()
+        tape.end()
 
 
 class TapedCamera:
