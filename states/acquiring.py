@@ -3,11 +3,12 @@
 from dataclasses import replace
 
 from fieldnav.estimation.lane_end import LaneEnd
-from fieldnav.messages import CameraName, Direction, Evidence, Motion, Twist
+from fieldnav.messages import Bound, CameraName, Direction, Evidence, Motion, Twist
 from fieldnav.perception.perceive import find
 from states.agreement import Agreement
 from states.behaviour import Observation, Sight, Step, Task
 from states.guides import guide_for, steering_of
+from states.judgement import first_of
 from states.lane_watch import driven_m
 from states.memory import LaneMemory
 from states.names import Event
@@ -37,23 +38,24 @@ class Acquiring:
         camera = self._task.cameras[frame.camera]
         found = find(frame.image, self._task.crop, camera)
         crept_m = abs(seen.forward_m - entered_m)
-        agreed = self._agreement.add(found.lane)
+        self._agreement.add(found.lane)
         evidence = (
-            *self._agreement.evidence(),
+            *self._agreement.evidence(Event.ROWS_FOUND),
             Evidence("rows of the lane in view", found.lane.rows_seen if found.lane else 0, None, "rows"),
-            Evidence("crept", crept_m, CREEP_LIMIT_M, "m"),
+            Evidence("crept", crept_m, CREEP_LIMIT_M, "m", Event.FAIL, Bound.ABOVE),
         )
+        event = first_of(evidence, Event.ROWS_FOUND, Event.FAIL)
         sight = Sight(frame, found.lane.rows if found.lane else found.lines, found.centres)
         motion = self._creep(seen.now_s - entered_s)
-        if agreed and found.lane:
+        if event is Event.ROWS_FOUND and found.lane:
             begin_m = driven_m(seen, self._direction) - CREEP_LIMIT_M
             end = LaneEnd(self._task.crop, begin_m, self._lane.expected_m, self._lane.from_m)
             self._lane.enter(guide_for(self._task, self._direction), end)
             self._lane.guide.begin(found.lane, frame, seen.exposed_at(frame))
             self._lane.counts[found.lane.rows_seen] += 1
-            return Step(motion, Event.ROWS_FOUND, evidence, sight)
-        if crept_m > CREEP_LIMIT_M:
-            return Step(replace(motion, twist=Twist()), Event.FAIL, evidence, sight, "no rows found")
+            return Step(motion, event, evidence, sight)
+        if event is Event.FAIL:
+            return Step(replace(motion, twist=Twist()), event, evidence, sight, "no rows found")
         self._step = Step(motion, None, evidence, sight)
         return self._step
 

@@ -3,6 +3,7 @@
 from fieldnav.messages import Evidence
 from fieldnav.perception.found import LEAST_CONFIDENCE
 from fieldnav.perception.lane import LaneFit
+from states.names import Event
 
 OFFSET_M = 0.06
 """Two looks at the same lane differ by less: camera shake of 1 degree moves the ground by 2 cm."""
@@ -29,9 +30,13 @@ class Agreement:
             self.looks = 1
         return self.looks >= self.needed
 
-    def evidence(self) -> tuple[Evidence, ...]:
+    def evidence(self, fires: Event | None = None, alone: bool = False) -> tuple[Evidence, ...]:
+        """What speaks for the lane; `fires`: the event that agreement is a condition of, or enough for alone.
+
+        A lane that is less sure than the confidence wanted is none: alone, the frames that agree imply it.
+        """
         sure = self._last.confidence if self._last else 0.0
         return (
-            Evidence("frames that agree on the lane", self.looks, self.needed, "frames"),
-            Evidence("confidence in the lane", sure, LEAST_CONFIDENCE),
+            Evidence("frames that agree on the lane", self.looks, self.needed, "frames", fires, alone=alone),
+            Evidence("confidence in the lane", sure, LEAST_CONFIDENCE, "", None if alone else fires),
         )

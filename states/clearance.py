@@ -4,11 +4,12 @@ The wheels run between the robot's centre and the trailing camera; what they may
 camera sees. So the rows' ends are kept a margin beyond it.
 """
 
-from fieldnav.messages import Direction, Evidence
+from fieldnav.messages import Bound, Direction, Evidence
 from fieldnav.perception.sidestep.passing_rows import Crossing
 from fieldnav.pinhole import Pinhole
 from states.behaviour import Observation, Task
 from states.memory import SwitchMemory
+from states.names import Event
 
 REACH_M = 1.0
 """To either side: beyond the wheels and their way of the next second."""
@@ -47,6 +48,7 @@ def away(task: Task, direction: Direction, end_m: float) -> tuple[float, float]:
 
 
 def retreated(task: Task, switch: SwitchMemory, seen: Observation, direction: Direction) -> Evidence:
-    """How far the robot has drawn away from the rows since the sidestep began, against how far it may."""
+    """How far the robot has drawn away from the rows since the sidestep began; too far is a failure."""
     ahead_m = direction.sign * (seen.forward_m - switch.started_forward_m)
-    return Evidence("drawn away from the rows", ahead_m, task.crop.switching.longest_retreat_m, "m")
+    limit_m = task.crop.switching.longest_retreat_m
+    return Evidence("drawn away from the rows", ahead_m, limit_m, "m", Event.FAIL, Bound.ABOVE, alone=True)

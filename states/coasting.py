@@ -2,13 +2,15 @@
 
 from dataclasses import replace
 
-from fieldnav.messages import CameraName, Direction, Evidence, Frame, Twist
+from fieldnav.messages import Bound, CameraName, Direction, Evidence, Frame, Twist
 from fieldnav.perception.canopy import canopy_plane
 from fieldnav.perception.follow import comb_of
+from fieldnav.perception.lane import LaneFit
 from fieldnav.perception.perceive import View, find
 from states.agreement import Agreement
 from states.behaviour import Observation, Sight, Step, Task
 from states.guide import Look
+from states.judgement import first_of, holds
 from states.lane_watch import LANE_ENDED, driven_m, end_evidence, watch_end
 from states.memory import LaneMemory
 from states.names import Event
@@ -46,45 +48,51 @@ class Coasting:
         found = find(frame.image, crop, self._task.cameras[frame.camera])
         look = guide.look(frame, found.centres, seen.exposed_at(frame))
         end = watch_end(self._lane, frame, found.centres, look.rows, seen, self._direction, self._task)
-        again = 2 * look.rows_seen >= crop.rows.per_lane and not self._elsewhere(found, frame, look)
+        on_path = self._on_path(found, frame, look)
+        again = all(map(holds, on_path))
         self._seen_again = self._seen_again + 1 if again else 0
-        agreed = self._agreement.add(found.lane)
+        self._agreement.add(found.lane)
         coasted_m = driven_m(seen, self._direction) - (self._entered_m or 0.0)
+        most_m = crop.row_end.longest_gap_m
         evidence = (
-            *end_evidence(end, LANE_ENDED),
-            Evidence("frames that show the rows again", self._seen_again, AGREEING_FRAMES, "frames"),
-            *self._agreement.evidence(),
-            Evidence("coasted", coasted_m, crop.row_end.longest_gap_m, "m"),
-            *guide.evidence(seen.pose),
+            *end_evidence(end, LANE_ENDED, Event.LANE_ENDED),
+            *on_path,
+            *self._again_evidence(),
+            Evidence("coasted", coasted_m, most_m, "m", Event.FAIL, Bound.ABOVE, alone=True),
+            *guide.evidence(seen.pose, lost=Event.FAIL),
         )
-        event, reason = self._found(found, again, frame, seen) if agreed else (None, "")
-        if self._seen_again >= AGREEING_FRAMES:
-            event, reason = Event.ROWS_FOUND, ""
-        elif event is None and not again and end.probability >= LANE_ENDED:
-            event = Event.LANE_ENDED
-        elif event is None:
-            reason = guide.lost(seen.pose) or self._too_long(coasted_m)
-            event = Event.FAIL if reason else None
+        event, reason = first_of(evidence, Event.ROWS_FOUND, Event.LANE_ENDED, Event.FAIL), ""
+        if event is Event.ROWS_FOUND and found.lane and not again:
+            reason = self._found(found.lane, frame, seen)
+        elif event is Event.FAIL:
+            reason = guide.lost(seen.pose) or "rows lost for longer than the profile's longest gap"
         sight = Sight(frame, look.rows, found.centres)
         return Step(event=event, evidence=evidence, sight=sight, reason=reason)
 
-    def _found(self, found: View, again: bool, frame: Frame, seen: Observation) -> tuple[Event, str]:
-        """The lane found afresh; where it is the guide's own come again, what that has learnt is kept."""
-        if not found.lane or again:
-            return Event.ROWS_FOUND, ""
-        self._lane.guide.begin(found.lane, frame, seen.exposed_at(frame))
+    def _again_evidence(self) -> tuple[Evidence, ...]:
+        """How often the rows were seen again or found afresh; a lane of which a frame shows rows goes on."""
+        again, found = self._seen_again, Event.ROWS_FOUND
+        return (
+            Evidence("frames that show the rows again", again, AGREEING_FRAMES, "frames", found, alone=True),
+            Evidence("rows shown again meanwhile", again, 0, "frames", Event.LANE_ENDED, Bound.AT_MOST),
+            *self._agreement.evidence(found, alone=True),
+        )
+
+    def _found(self, lane: LaneFit, frame: Frame, seen: Observation) -> str:
+        """Begin anew with a lane found elsewhere; where it is the guide's own, what was learnt is kept."""
+        self._lane.guide.begin(lane, frame, seen.exposed_at(frame))
         self._lane.end.look_again()
-        return Event.ROWS_FOUND, "the lane was found afresh"
+        return "the lane was found afresh"
 
-    def _elsewhere(self, found: View, frame: Frame, look: Look) -> bool:
-        """Whether the rows just found run beside the path, on which weeds may stand for crop."""
-        if found.lane is None:
-            return False
+    def _on_path(self, found: View, frame: Frame, look: Look) -> tuple[Evidence, ...]:
+        """What makes a frame show the rows: enough of them on the path, and none beside it instead."""
         crop, plane = self._task.crop, canopy_plane(self._task.cameras[frame.camera], self._task.crop)
-        path, seen = (comb_of(rows, crop, plane) for rows in (look.rows, found.lane.rows))
-        return abs(seen.offset_m - path.offset_m) > ELSEWHERE * crop.rows.spacing_m
-
-    def _too_long(self, coasted_m: float) -> str:
-        if coasted_m > self._task.crop.row_end.longest_gap_m:
-            return "rows lost for longer than the profile's longest gap"
-        return ""
+        enough = Evidence("rows seen", look.rows_seen, crop.rows.per_lane / 2, "rows")
+        if found.lane is None or not look.rows:
+            return (enough,)
+        path, fresh = (comb_of(rows, crop, plane) for rows in (look.rows, found.lane.rows))
+        off_m, most_m = abs(fresh.offset_m - path.offset_m), ELSEWHERE * crop.rows.spacing_m
+        return (
+            enough,
+            Evidence("rows found afresh beside the path by", off_m, most_m, "m", None, Bound.AT_MOST),
+        )

@@ -1,12 +1,13 @@
 """A lane that is drawn where a robot which followed it must still stand, for want of plants to find it by."""
 
-from fieldnav.messages import Centres, Direction, Frame
+from fieldnav.messages import Centres, Direction, Evidence, Frame
 from fieldnav.odometry import Pose
 from fieldnav.perception.canopy import canopy_plane
 from fieldnav.perception.lane import LaneFit, comb_m
 from fieldnav.perception.row_end import crop_along_rows
 from states.behaviour import Task
 from states.guides import guide_for
+from states.names import Event
 
 FRAMES_FITTING = 6
 LEAST_PLANTS = 1.0
@@ -26,8 +27,8 @@ class DrawnLane:
         self._fitting = 0
         self.rows_seen = 0
 
-    def fits(self, frame: Frame, centres: Centres, pose: Pose) -> bool:
-        """Take in a frame of the trailing camera; whether enough of them show plants in the lane's rows."""
+    def evidence(self, frame: Frame, centres: Centres, pose: Pose) -> Evidence:
+        """Take in a frame of the trailing camera: enough of them must show plants in the lane's rows."""
         if not self._begun:
             self._begun = True
             self.guide.begin(self._straight(frame), frame, pose)
@@ -35,7 +36,8 @@ class DrawnLane:
         self.rows_seen = look.rows_seen
         _, weight = crop_along_rows(centres, look.rows, self._task.crop, self._task.cameras[frame.camera])
         self._fitting += float(weight.sum()) >= LEAST_PLANTS
-        return self._fitting >= FRAMES_FITTING
+        name, fits = "frames with plants in the lane's rows", Event.PLACE_FITS
+        return Evidence(name, self._fitting, FRAMES_FITTING, "frames", fits, alone=True)
 
     def _straight(self, frame: Frame) -> LaneFit:
         crop = self._task.crop

@@ -1,13 +1,16 @@
 """Exit: drive out of the lane guided by the trailing camera (paper phase 2)."""
 
+from dataclasses import replace
+
 from fieldnav.estimation.lane_end import LaneEndView
-from fieldnav.messages import CameraName, Direction, Evidence, Frame, Motion, Twist
+from fieldnav.messages import Bound, CameraName, Direction, Evidence, Frame, Motion, Twist
 from fieldnav.perception.canopy import canopy_plane
 from fieldnav.perception.perceive import find
 from fieldnav.perception.plants import find_plants
 from states.agreement import Agreement
 from states.behaviour import Observation, Sight, Step, Task
 from states.guides import steering_of
+from states.judgement import first_of
 from states.lane_watch import SURE, driven_m, end_evidence, watch_end
 from states.memory import LaneMemory
 from states.names import Event
@@ -39,11 +42,10 @@ class Exiting:
     def step(self, seen: Observation) -> Step:
         leading, trailing = (seen.frames.get(name) for name in self._both)
         self.cameras = self._both if self._due_ahead(seen.now_s, leading) else (self._direction.trailing,)
-        step = self._step.continued()
-        if leading is not None:
-            step = self._ahead(leading, seen)
+        step = self._ahead(leading, seen) if leading is not None else self._step.continued()
         if trailing is not None and step.event is None:
-            step = self._behind(trailing, seen)
+            behind = self._behind(trailing, seen)
+            step = replace(behind, evidence=(*behind.evidence, *step.evidence))
         self._step = step.with_motion(self._motion(seen, step))
         return self._step
 
@@ -64,16 +66,23 @@ class Exiting:
         afresh = found.lane if self._agreement.add(found.lane) else None
         rows, centres = afresh.rows if afresh else guide.rows(frame.camera, pose), found.centres
         self._end = watch_end(self._lane, frame, centres, rows, seen, self._direction, self._task)
-        beyond = driven_m(seen, self._direction, frame) + self._nearest_seen_m(frame) > self._end.crop_until_m
-        if self._end.probability >= AGAIN and not (afresh and beyond):
-            return self._step.continued()
+        evidence = self._again_evidence(driven_m(seen, self._direction, frame) + self._nearest_seen_m(frame))
+        event = first_of(evidence, Event.ROWS_SEEN_AGAIN)
+        if event is None:
+            return replace(self._step.continued(), evidence=evidence)
         if afresh:
             guide.begin(afresh, frame, pose)
             self._lane.end.look_again()
-        evidence = (*end_evidence(self._end, AGAIN), *self._agreement.evidence())
         reason = "crop comes again: it was a gap"
-        return Step(
-            event=Event.ROWS_SEEN_AGAIN, evidence=evidence, sight=Sight(frame, rows, centres), reason=reason
+        return Step(event=event, evidence=evidence, sight=Sight(frame, rows, centres), reason=reason)
+
+    def _again_evidence(self, begins_m: float) -> tuple[Evidence, ...]:
+        """Whether it was a gap: the end is unlikely, or a lane is found afresh past the last crop."""
+        again, likely, until_m = Event.ROWS_SEEN_AGAIN, self._end.probability, self._end.crop_until_m
+        return (
+            Evidence("probability of an end ahead", likely, AGAIN, "", again, Bound.BELOW, alone=True),
+            *self._agreement.evidence(again),
+            Evidence("where the view ahead begins", begins_m, until_m, "m", again, Bound.ABOVE),
         )
 
     def _behind(self, frame: Frame, seen: Observation) -> Step:
@@ -82,27 +91,27 @@ class Exiting:
         look = guide.look(frame, centres, seen.exposed_at(frame))
         self._lane.trailing = look if look.rows else self._lane.trailing
         self._end = watch_end(self._lane, frame, centres, look.rows, seen, self._direction, self._task)
-        left_m = self._left_m(seen)
+        left = Event.LAST_LANE_LEFT if self._lane.number >= self._task.lanes else Event.LANE_LEFT
         evidence = (
-            *end_evidence(self._end, SURE),
-            Evidence("to the place to stop", left_m, 0.0, "m"),
+            *self._left_evidence(self._left_m(seen), left),
             Evidence("length of this lane", self._lane.end.length_m(), None, "m"),
             Evidence("rows seen behind", look.rows_seen, None, "rows"),
-            Evidence("frames that show a lane ahead", self._agreement.looks, 0, "frames"),
             *guide.evidence(seen.pose),
         )
         sight = Sight(frame, look.rows, centres, guide.feature)
-        if left_m > 0:
-            return Step(evidence=evidence, sight=sight)
-        if self._end.probability >= SURE and not self._agreement.looks:
-            last = self._lane.number >= self._task.lanes
-            return Step(
-                event=Event.LAST_LANE_LEFT if last else Event.LANE_LEFT, evidence=evidence, sight=sight
-            )
-        if left_m < -BEYOND_M:
-            reason = "no crop either way, and yet the lane should not end here"
-            return Step(event=Event.FAIL, evidence=evidence, sight=sight, reason=reason)
-        return Step(evidence=evidence, sight=sight)
+        event = first_of(evidence, left, Event.FAIL)
+        reason = "no crop either way, and yet the lane should not end here" if event is Event.FAIL else ""
+        return Step(event=event, evidence=evidence, sight=sight, reason=reason)
+
+    def _left_evidence(self, left_m: float, left: Event) -> tuple[Evidence, ...]:
+        """Whether the lane is left for good; far past the place to stop a robot that is not sure gives up."""
+        looks = self._agreement.looks
+        return (
+            *end_evidence(self._end, SURE, left),
+            Evidence("to the place to stop", left_m, 0.0, "m", left, Bound.AT_MOST),
+            Evidence("frames that show a lane ahead", looks, 0, "frames", left, Bound.AT_MOST),
+            Evidence("past the place to stop", -left_m, BEYOND_M, "m", Event.FAIL, Bound.ABOVE),
+        )
 
     def _nearest_seen_m(self, frame: Frame) -> float:
         """How far ahead of the robot's centre the leading view begins: a lane in it may be the one left."""

@@ -7,6 +7,7 @@ from fieldnav.messages import CameraName, Centres, Evidence, Frame, Motion, RowL
 from fieldnav.odometry import Pose
 from fieldnav.perception.lane import LaneFit
 from fieldnav.perception.tracking import Feature
+from states.names import Event
 
 
 @dataclass(frozen=True, slots=True)
@@ -44,8 +45,8 @@ class Guide(Protocol):
         """The middle of the lane in the image of the last look; None where nothing is known of it."""
         ...
 
-    def evidence(self, pose: Pose) -> tuple[Evidence, ...]:
-        """What the motion was made from."""
+    def evidence(self, pose: Pose, lost: Event | None = None) -> tuple[Evidence, ...]:
+        """What the motion was made from; `lost`: the event that comes about when it can guide no further."""
         ...
 
     def lost(self, pose: Pose) -> str:

@@ -8,6 +8,7 @@ from fieldnav.perception.canopy import canopy_plane
 from fieldnav.perception.row_end import crop_along_rows
 from states.behaviour import Observation, Task
 from states.memory import LaneMemory
+from states.names import Event
 
 LANE_ENDED = 0.5
 """Probability of an end from which on the robot leaves the lane; it may still come back."""
@@ -46,9 +47,9 @@ def watch_end(
     return lane.end.judge()
 
 
-def end_evidence(view: LaneEndView, threshold: float) -> tuple[Evidence, ...]:
-    """Both cameras' word on the end of the lane."""
+def end_evidence(view: LaneEndView, threshold: float, fires: Event) -> tuple[Evidence, ...]:
+    """Both cameras' word on the end of the lane, a condition of an event."""
     return (
-        Evidence("probability that the lane has ended", view.probability, threshold),
+        Evidence("probability that the lane has ended", view.probability, threshold, "", fires),
         Evidence("no crop ahead over", view.empty_m, None, "m"),
     )

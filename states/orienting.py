@@ -1,7 +1,8 @@
 """Sidestep.Orienting: stop, then turn the wheels across before the robot moves (paper III-C)."""
 
-from fieldnav.messages import CameraName, Direction, Evidence, Motion
+from fieldnav.messages import Bound, CameraName, Direction, Evidence, Motion
 from states.behaviour import Observation, Step, Task
+from states.judgement import first_of
 from states.memory import LaneMemory, SwitchMemory
 from states.names import Event
 from states.sideways import sideways
@@ -24,16 +25,23 @@ class Orienting:
     def step(self, seen: Observation) -> Step:
         if self._entered_s is None:
             self._entered_s = seen.now_s
-        taken_s = seen.now_s - self._entered_s
-        evidence = (Evidence("turning the wheels takes", taken_s, LONGEST_S, "s"),)
-        if taken_s > LONGEST_S:
-            return Step(Motion(), Event.FAIL, evidence, reason="the wheels do not turn across")
-        if not seen.stopped and not self._turning_ticks:
+        self._turning_ticks += seen.stopped or self._turning_ticks > 0
+        evidence = self._evidence(seen, seen.now_s - self._entered_s)
+        event = first_of(evidence, Event.FAIL, Event.WHEELS_TURNED)
+        if event is Event.FAIL:
+            return Step(Motion(), event, evidence, reason="the wheels do not turn across")
+        if not self._turning_ticks:
             return Step(Motion(), None, evidence)
-        self._turning_ticks += 1
-        motion = sideways(self._task, self._task.crop.speeds.sidestep_mps, hold=True)
-        # The word on alignment belongs to the motion commanded before, so the first tick says nothing.
-        if seen.wheels_aligned and self._turning_ticks > SETTLED_TICKS:
+        if event is Event.WHEELS_TURNED:
             self._lane.switch = SwitchMemory(seen.sideways_m, seen.forward_m)
-            return Step(motion, Event.WHEELS_TURNED, evidence)
-        return Step(motion, None, evidence)
+        return Step(sideways(self._task, self._task.crop.speeds.sidestep_mps, hold=True), event, evidence)
+
+    def _evidence(self, seen: Observation, taken_s: float) -> tuple[Evidence, ...]:
+        turned, ticks = Event.WHEELS_TURNED, self._turning_ticks
+        return (
+            Evidence("turning the wheels takes", taken_s, LONGEST_S, "s", Event.FAIL, Bound.ABOVE),
+            Evidence("robot stands", float(seen.stopped)),
+            # The word on alignment belongs to the motion commanded before, so the first tick says nothing.
+            Evidence("ticks of turning", ticks, SETTLED_TICKS, "ticks", turned, Bound.ABOVE),
+            Evidence("wheels stand across", float(seen.wheels_aligned), 1, "", turned),
+        )

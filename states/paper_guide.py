@@ -11,6 +11,7 @@ from fieldnav.perception.tracking import Feature, TrackedRows, feature, start, t
 from states.agreement import Agreement
 from states.behaviour import Task
 from states.guide import Look
+from states.names import Event
 
 AGREEING_FRAMES = 2
 """Of the trailing camera, which finds the rows by itself when the exit begins."""
@@ -68,7 +69,7 @@ class PaperGuide:
         turn_rps = yaw_rate(self.feature, self._task.cameras[camera], towards_mps, chosen)
         return Motion(Twist(vx_mps=sign * speed_mps, yaw_rate_rps=turn_rps))
 
-    def evidence(self, pose: Pose) -> tuple[Evidence, ...]:
+    def evidence(self, pose: Pose, lost: Event | None = None) -> tuple[Evidence, ...]:
         if self.feature is None:
             return ()
         return (

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from fieldnav.control.path_following import follow_path, in_robot_axes
 from fieldnav.estimation.lane_path import LanePath
 from fieldnav.estimation.sighting import Sighting
-from fieldnav.messages import CameraName, Centres, Direction, Evidence, Floats, Frame, Motion, RowLine
+from fieldnav.messages import Bound, CameraName, Centres, Direction, Evidence, Floats, Frame, Motion, RowLine
 from fieldnav.odometry import Pose
 from fieldnav.perception.canopy import canopy_plane
 from fieldnav.perception.follow import scatter_m, widest_m
@@ -19,6 +19,7 @@ from fieldnav.perception.tracking import Feature, feature
 from fieldnav.settings.crop import CropProfile
 from states.behaviour import Task
 from states.guide import Look
+from states.names import Event
 
 UNSURE = 2.0
 """A row's strip is wider by so many standard deviations of the lane's place."""
@@ -77,11 +78,11 @@ class PathGuide:
         state = self._known.state(self._travelling(pose))
         return in_robot_axes(follow_path(state, speed_mps, self._task.crop.control), self._direction.sign)
 
-    def evidence(self, pose: Pose) -> tuple[Evidence, ...]:
-        state, control = self._known.state(self._travelling(pose)), self._task.crop.control
+    def evidence(self, pose: Pose, lost: Event | None = None) -> tuple[Evidence, ...]:
+        state, most_m = self._known.state(self._travelling(pose)), self._task.crop.control.most_uncertain_m
         return (
             Evidence("offset from the lane", state.offset_m, None, "m"),
-            Evidence("offset uncertain by", state.offset_sd_m, control.most_uncertain_m, "m"),
+            Evidence("offset uncertain by", state.offset_sd_m, most_m, "m", lost, Bound.ABOVE, alone=True),
             Evidence("heading against the lane", degrees(state.heading_rad), None, "deg"),
             Evidence("curvature of the lane", state.curvature_per_m, None, "1/m"),
             Evidence("pushed sideways", state.sideslip, None, "m/m"),

@@ -1,9 +1,10 @@
 """Resuming: at standstill, look whether what is seen fits the ledger, before a broken-off mission goes on."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from math import nan
 
 from fieldnav.estimation.lane_end import LaneEnd
-from fieldnav.messages import CameraName, Evidence, Frame
+from fieldnav.messages import Bound, CameraName, Evidence, Frame
 from fieldnav.perception.lane import LaneFit
 from fieldnav.perception.perceive import View, find
 from states.acquiring import CREEP_LIMIT_M
@@ -12,6 +13,7 @@ from states.behaviour import Observation, Sight, Step, Task
 from states.drawn_lane import DrawnLane
 from states.guide import Guide
 from states.guides import guide_for
+from states.judgement import first_of
 from states.lane_watch import driven_m, watch_end
 from states.memory import LaneMemory
 from states.names import Event, Follow, Phase
@@ -33,14 +35,19 @@ class _Look:
 
     agreement: Agreement
     lane: LaneFit | None = None
-    agreed: bool = False
 
-    def fits(self, rows: int) -> bool:
+    def evidence(self, rows: int) -> tuple[Evidence, ...]:
         """Whether half of the rows are there, and the lane lies where following gets over it."""
-        lane = self.lane
-        if not self.agreed or lane is None or 2 * lane.rows_seen < rows:
-            return False
-        return abs(lane.offset_m) <= WIDEST_M and abs(lane.slope) <= STEEPEST
+        lane, fits, at_most = self.lane, Event.PLACE_FITS, Bound.AT_MOST
+        offset_m, slope = (lane.offset_m, lane.slope) if lane else (nan, nan)
+        return (
+            Evidence("rows of the lane in view", lane.rows_seen if lane else 0, rows / 2, "rows", fits),
+            Evidence("offset of the lane", offset_m, None, "m"),
+            Evidence("lane off the robot's middle by", abs(offset_m), WIDEST_M, "m", fits, at_most),
+            Evidence("slope of the lane", slope),
+            Evidence("lane turned against the robot by the slope", abs(slope), STEEPEST, "", fits, at_most),
+            *self.agreement.evidence(fits),
+        )
 
 
 class ResumingLane:
@@ -54,50 +61,53 @@ class ResumingLane:
         self._looks = {name: _Look(Agreement(AGREEING_FRAMES)) for name in self.cameras}
         self._drawn = DrawnLane(task, self._direction)
         self._entered_s: float | None = None
+        self._judged: tuple[Evidence, ...] = ()
         self._step = Step()
 
     def step(self, seen: Observation) -> Step:
         self._entered_s = seen.now_s if self._entered_s is None else self._entered_s
         looked_s = seen.now_s - self._entered_s
+        looked = Evidence("looked", looked_s, LONGEST_S, "s", Event.FAIL, Bound.ABOVE)
         for frame in seen.frames.values():
-            self._step = self._look(frame, seen, looked_s)
+            step = self._look(frame, seen, looked_s)
+            self._judged = step.evidence
+            self._step = replace(step, evidence=(*step.evidence, looked))
             if self._step.event is not None:
                 return self._step
-        if looked_s > LONGEST_S:
-            return Step(Step().motion, Event.FAIL, self._step.evidence, None, self._misfit())
+        if first_of((looked,), Event.FAIL):
+            return Step(event=Event.FAIL, evidence=(*self._judged, looked), reason=self._misfit())
         return self._step if seen.frames else self._step.continued()
 
     def _look(self, frame: Frame, seen: Observation, looked_s: float) -> Step:
         crop, look = self._task.crop, self._looks[frame.camera]
         found = find(frame.image, crop, self._task.cameras[frame.camera])
-        look.lane, look.agreed = found.lane, look.agreement.add(found.lane)
-        lane = found.lane
-        evidence = (
-            Evidence("rows of the lane in view", lane.rows_seen if lane else 0, crop.rows.per_lane, "rows"),
-            Evidence("offset of the lane", lane.offset_m if lane else float("nan"), WIDEST_M, "m"),
-            Evidence("slope of the lane", lane.slope if lane else float("nan"), STEEPEST),
-            *look.agreement.evidence(),
-            Evidence("looked", looked_s, LONGEST_S, "s"),
-        )
+        look.lane = lane = found.lane
+        look.agreement.add(lane)
+        evidence = (*look.evidence(crop.rows.per_lane), *self._turn(frame, looked_s))
         sight = Sight(frame, lane.rows if lane else found.lines, found.centres)
-        reason = self._fits(found, look, frame, seen, looked_s)
-        return Step(event=Event.PLACE_FITS if reason else None, evidence=evidence, sight=sight, reason=reason)
-
-    def _fits(self, found: View, look: _Look, frame: Frame, seen: Observation, looked_s: float) -> str:
-        """By what the mission goes on, once it does; empty until then."""
-        ahead, lane = frame.camera is self._direction.leading, look.lane
-        in_turn = frame.camera is self._first or looked_s > OTHER_WAY_S
-        if in_turn and lane and look.fits(self._task.crop.rows.per_lane):
+        event = first_of(evidence, Event.PLACE_FITS)
+        if event and lane:
             guide = guide_for(self._task, self._direction)
             guide.begin(lane, frame, seen.exposed_at(frame))
             self._go_on(guide, lane.rows_seen, found, frame, seen)
-            return "the lane is seen ahead" if ahead else "the lane is seen behind"
-        if ahead or self._first is not frame.camera or looked_s <= OTHER_WAY_S:
-            return ""
-        if not self._drawn.fits(frame, found.centres, seen.exposed_at(frame)):
-            return ""
-        self._go_on(self._drawn.guide, self._drawn.rows_seen, found, frame, seen)
-        return "plants stand behind where the lane's rows must end"
+            where = "ahead" if frame.camera is self._direction.leading else "behind"
+            return Step(event=event, evidence=evidence, sight=sight, reason=f"the lane is seen {where}")
+        behind = frame.camera is self._first is self._direction.trailing
+        if not behind or looked_s <= OTHER_WAY_S:
+            return Step(evidence=evidence, sight=sight)
+        evidence = (*evidence, self._drawn.evidence(frame, found.centres, seen.exposed_at(frame)))
+        event, reason = first_of(evidence, Event.PLACE_FITS), ""
+        if event:
+            self._go_on(self._drawn.guide, self._drawn.rows_seen, found, frame, seen)
+            reason = "plants stand behind where the lane's rows must end"
+        return Step(event=event, evidence=evidence, sight=sight, reason=reason)
+
+    def _turn(self, frame: Frame, looked_s: float) -> tuple[Evidence, ...]:
+        """The camera that should not see the lane has its turn once the other one was waited for."""
+        if frame.camera is self._first:
+            return ()
+        waited = "waited for the other camera"
+        return (Evidence(waited, looked_s, OTHER_WAY_S, "s", Event.PLACE_FITS, Bound.ABOVE),)
 
     def _go_on(self, guide: Guide, rows_seen: int, found: View, frame: Frame, seen: Observation) -> None:
         """Follow what is seen ahead; leave the lane by what is seen behind."""

@@ -2,7 +2,7 @@
 
 from dataclasses import replace
 
-from fieldnav.messages import CameraName, Evidence, Frame
+from fieldnav.messages import Bound, CameraName, Evidence, Frame
 from fieldnav.perception.canopy import canopy_plane
 from fieldnav.perception.lane import comb_m
 from fieldnav.perception.perceive import find
@@ -12,6 +12,7 @@ from fieldnav.perception.sidestep.passing_rows import Crossing, begin, look_at_m
 from fieldnav.perception.sidestep.row_lines import row_in_view
 from fieldnav.perception.sidestep.row_words import LEAST_SHOWN
 from states.behaviour import Observation, Step, Task
+from states.judgement import first_of
 from states.memory import LaneMemory, SwitchMemory
 from states.names import Event, Phase, Sidestep
 from states.passing import look
@@ -34,24 +35,28 @@ class ResumingSidestep:
         self._task, self._lane, self._resumption = task, lane, resumption
         self._entered_s: float | None = None
         self._fitting = 0
+        self._judged: tuple[Evidence, ...] = ()
         self._step = Step()
 
     def step(self, seen: Observation) -> Step:
         if self._entered_s is None:
             self._entered_s = seen.now_s
         looked_s = seen.now_s - self._entered_s
-        if looked_s > LONGEST_S:
+        looked = Evidence("looked", looked_s, LONGEST_S, "s", Event.FAIL, Bound.ABOVE)
+        if first_of((looked,), Event.FAIL):
             reason = (
                 f"what is seen does not fit a sidestep of {abs(self._resumption.moved_m):.2f} m from lane "
                 f"{self._lane.number}: no row stands where its rows must be"
             )
-            return Step(event=Event.FAIL, evidence=self._step.evidence, reason=reason)
+            return Step(event=Event.FAIL, evidence=(*self._judged, looked), reason=reason)
         for frame in seen.frames.values():
-            self._step = self._look(frame, seen, looked_s)
+            step = self._look(frame, seen)
+            self._judged = step.evidence
+            self._step = replace(step, evidence=(*step.evidence, looked))
             return self._step
         return self._step.continued()
 
-    def _look(self, frame: Frame, seen: Observation, looked_s: float) -> Step:
+    def _look(self, frame: Frame, seen: Observation) -> Step:
         crop, camera = self._task.crop, self._task.cameras[frame.camera]
         if self._lane.switch is None:
             started_m = seen.sideways_m - self._resumption.moved_m
@@ -67,10 +72,10 @@ class ResumingSidestep:
         evidence = (
             Evidence("moved sideways by the ledger", self._resumption.moved_m, None, "m"),
             Evidence("what a row of the old lane shows", shown, LEAST_SHOWN),
-            Evidence("frames that fit", self._fitting, FRAMES_FITTING, "frames"),
-            Evidence("looked", looked_s, LONGEST_S, "s"),
+            Evidence("frames that fit", self._fitting, FRAMES_FITTING, "frames", Event.PLACE_FITS),
         )
-        if self._fitting < FRAMES_FITTING:
+        event = first_of(evidence, Event.PLACE_FITS)
+        if event is None:
             return Step(evidence=evidence, sight=sight)
         self._lane.switch.crossing = all_known(rows)
         if outermost:
@@ -78,7 +83,7 @@ class ResumingSidestep:
         at = Sidestep.CROSSING if in_place else Sidestep.RETURNING
         self._lane.switch.looks += in_place  # Returning counts the one that follows it
         self._lane.resumes = (self._resumption.direction, Phase.SIDESTEP, at)
-        return Step(event=Event.PLACE_FITS, evidence=evidence, sight=sight)
+        return Step(event=event, evidence=evidence, sight=sight)
 
     def _beyond(self, frame: Frame, rows: Crossing) -> bool:
         """Whether a row is found where the next lane may be: at rest one is not met beside a heavier one."""

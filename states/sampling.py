@@ -1,11 +1,12 @@
 """Sidestep.Sampling: at standstill, take the features of the outermost row (paper III-C)."""
 
-from fieldnav.messages import CameraName, Direction, Evidence, Frame, RowLine
+from fieldnav.messages import Bound, CameraName, Direction, Evidence, Frame, RowLine
 from fieldnav.perception.perceive import find
 from fieldnav.perception.recognition import describe
 from fieldnav.perception.sidestep.passing_rows import begin
 from fieldnav.settings.crop import ControlLaw
 from states.behaviour import Observation, Sight, Step, Task
+from states.judgement import first_of
 from states.memory import LaneMemory
 from states.names import Event
 from states.sideways import sideways
@@ -39,13 +40,15 @@ class Sampling:
         rows = self._rows(frame, seen)
         looked_s = seen.now_s - self._entered_s
         evidence = (
-            Evidence("frames looked at", self._looked, LOOKED_FRAMES, "frames"),
-            Evidence("looked for the rows", looked_s, LONGEST_S, "s"),
+            Evidence("rows to count from", len(rows), 1, "rows", Event.ROW_SAMPLED),
+            Evidence("frames looked at", self._looked, LOOKED_FRAMES, "frames", Event.ROW_SAMPLED),
+            Evidence("looked for the rows", looked_s, LONGEST_S, "s", Event.FAIL, Bound.ABOVE),
         )
-        if rows and self._looked >= LOOKED_FRAMES:
+        event = first_of(evidence, Event.ROW_SAMPLED, Event.FAIL)
+        if event is Event.ROW_SAMPLED:
             return self._sampled(frame, seen, rows, evidence)
-        if looked_s > LONGEST_S:
-            return Step(self._hold, Event.FAIL, evidence, Sight(frame), "no row to count from")
+        if event is Event.FAIL:
+            return Step(self._hold, event, evidence, Sight(frame), "no row to count from")
         self._step = Step(self._hold, None, evidence, Sight(frame, rows))
         return self._step
 

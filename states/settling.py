@@ -2,17 +2,18 @@
 
 from math import degrees, radians
 
-from fieldnav.messages import CameraName, Direction, Evidence, Frame, Motion
+from fieldnav.messages import Bound, CameraName, Direction, Evidence, Frame, Motion
 from fieldnav.perception.canopy import canopy_plane
 from fieldnav.perception.sidestep.lane_entry import Entry, entry
 from fieldnav.perception.sidestep.next_lane import NextLane
 from fieldnav.perception.sidestep.passing_rows import look_at_m
 from states.behaviour import Observation, Sight, Step, Task
 from states.clearance import away, nearest_end_m
+from states.judgement import first_of, holds
 from states.memory import LaneMemory, SwitchMemory
 from states.names import Event
 from states.passing import found, lane_evidence, look
-from states.sideways import sideways, too_far, way
+from states.sideways import sideways, way
 
 OFFSET_GAIN_PER_S = 0.8
 """What is left is halved in under a second. Our choice."""
@@ -40,24 +41,27 @@ class Settling:
     def step(self, seen: Observation) -> Step:
         frame = seen.frames.get(self._direction.trailing)
         switch = self._lane.switching
-        moved = way(self._task, switch, seen)
-        if self._entered_s is None:
-            self._entered_s = seen.now_s
-        taken = Evidence("settling takes", seen.now_s - self._entered_s, LONGEST_S, "s")
-        if too_far(taken):
-            return self._stopped((taken, moved), "the new lane could not be centred in time")
-        if too_far(moved):
-            return self._stopped((taken, moved), "the new lane could not be centred in the sidestep")
+        bounds = taken, _ = self._taken(seen), way(self._task, switch, seen, Event.FAIL)
+        if first_of(bounds, Event.FAIL):
+            reason = f"the new lane could not be centred in {'time' if holds(taken) else 'the sidestep'}"
+            return Step(sideways(self._task, 0.0), Event.FAIL, bounds, reason=reason)
         if frame is None:
             return self._step.continued()
         rows, sight = look(self._task, switch, frame, seen)
         there = found(self._task, self._lane, rows)
-        evidence = (*lane_evidence(self._task, self._lane, there), moved)
+        self._lost = 0 if there else self._lost + 1
+        lost = Evidence("frames without the lane", self._lost, LOST_FRAMES, "frames", Event.LANE_REFUSED)
+        evidence = (*lane_evidence(self._task, self._lane, there), lost, *bounds)
         if there is None:
             return self._without(switch, evidence, sight)
-        self._lost = 0
         self._step = self._settle(frame, switch, there, seen.stopped, evidence, sight)
         return self._step
+
+    def _taken(self, seen: Observation) -> Evidence:
+        if self._entered_s is None:
+            self._entered_s = seen.now_s
+        taken_s = seen.now_s - self._entered_s
+        return Evidence("settling takes", taken_s, LONGEST_S, "s", Event.FAIL, Bound.ABOVE, alone=True)
 
     def _settle(
         self,
@@ -77,11 +81,11 @@ class Settling:
         self._rested = self._rested + 1 if self._resting and stopped else 0
         evidence = (
             *evidence,
-            *entry_evidence(at, self._task),
-            Evidence("frames at rest", self._rested, FRAMES_AT_REST, "frames"),
+            *entry_evidence(at, self._task, Event.LANE_REACHED),
+            Evidence("frames at rest", self._rested, FRAMES_AT_REST, "frames", Event.LANE_REACHED),
         )
         if self._resting:
-            event = Event.LANE_REACHED if self._rested >= FRAMES_AT_REST else None
+            event = first_of(evidence, Event.LANE_REACHED)
             return Step(sideways(self._task, 0.0), event, evidence, sight)
         fastest = crop.speeds.sidestep_mps
         speed_mps = max(-fastest, min(fastest, OFFSET_GAIN_PER_S * at.offset_m))
@@ -91,16 +95,12 @@ class Settling:
 
     def _without(self, switch: SwitchMemory, evidence: tuple[Evidence, ...], sight: Sight) -> Step:
         """Wait for the lane to be seen again; it was none if it is not."""
-        self._lost += 1
-        gone = Evidence("frames without the lane", self._lost, LOST_FRAMES, "frames")
-        self._step = Step(sideways(self._task, 0.0), None, (*evidence, gone), sight)
-        if self._lost < LOST_FRAMES:
+        self._step = Step(sideways(self._task, 0.0), None, evidence, sight)
+        event = first_of(evidence, Event.LANE_REFUSED)
+        if event is None:
             return self._step
         switch.refused = "the next lane was lost from sight"
-        return Step(sideways(self._task, 0.0), Event.LANE_REFUSED, (*evidence, gone), sight, switch.refused)
-
-    def _stopped(self, evidence: tuple[Evidence, ...], reason: str) -> Step:
-        return Step(sideways(self._task, 0.0), Event.FAIL, evidence, reason=reason)
+        return Step(sideways(self._task, 0.0), event, evidence, sight, switch.refused)
 
 
 def towards(task: Task, direction: Direction, at: Entry, speed_mps: float) -> Motion:
@@ -116,12 +116,28 @@ def within(at: Entry, task: Task, share: float = 1.0) -> bool:
     return centred and abs(at.slope) <= share * radians(switching.aligned_deg)
 
 
-def entry_evidence(at: Entry, task: Task) -> tuple[Evidence, ...]:
-    """How the robot stands before the lane, and how surely."""
+def furthest_off(at: Entry, task: Task) -> float:
+    """How far the robot stands off the lane or is turned against it, over what the profile allows."""
     switching = task.crop.switching
+    return max(abs(at.offset_m) / switching.centred_m, abs(degrees(at.slope)) / switching.aligned_deg)
+
+
+def entry_evidence(
+    at: Entry, task: Task, centred: Event, share: float = 1.0, sure_deg: float | None = None
+) -> tuple[Evidence, ...]:
+    """How the robot stands before the lane, and how surely.
+
+    centred: the event for which it must stand within a share of what the profile allows, and, where a limit
+    is given, be so sure of the angle.
+    """
+    most_m, most_deg = share * task.crop.switching.centred_m, share * task.crop.switching.aligned_deg
+    angle_deg, sd_deg = degrees(at.slope), degrees(at.slope_sd)
+    sure = None if sure_deg is None else centred
     return (
-        Evidence("distance to the new lane's centre", at.offset_m, switching.centred_m, "m"),
+        Evidence("distance to the new lane's centre", at.offset_m, None, "m"),
+        Evidence("off the new lane's centre by", abs(at.offset_m), most_m, "m", centred, Bound.AT_MOST),
         Evidence("known within", at.offset_sd_m, None, "m"),
-        Evidence("angle to the new lane", degrees(at.slope), switching.aligned_deg, "deg"),
-        Evidence("angle known within", degrees(at.slope_sd), None, "deg"),
+        Evidence("angle to the new lane", angle_deg, None, "deg"),
+        Evidence("turned against the new lane by", abs(angle_deg), most_deg, "deg", centred, Bound.AT_MOST),
+        Evidence("angle known within", sd_deg, sure_deg, "deg", sure, Bound.AT_MOST),
     )

@@ -1,8 +1,9 @@
 """Moving sideways to the next lane: heading, distance to the crop kept meanwhile, the bound on the way."""
 
-from fieldnav.messages import Evidence, Motion, Steering, Twist
+from fieldnav.messages import Bound, Evidence, Motion, Steering, Twist
 from states.behaviour import Observation, Task
 from states.memory import SwitchMemory
+from states.names import Event
 
 HEADING_GAIN_PER_S = 0.5
 """Turns an error of heading out within two seconds, slower than the heading is known. Our choice."""
@@ -21,16 +22,14 @@ def sideways(
     return Motion(Twist(ahead_mps, task.side.sign * outward_mps, turn_rps), Steering.OMNIDIRECTIONAL, hold)
 
 
-def way(task: Task, switch: SwitchMemory, seen: Observation) -> Evidence:
-    """How far this sidestep has gone to the next lane's side, against how far it may go."""
+def way(task: Task, switch: SwitchMemory, seen: Observation, beyond: Event | None = None) -> Evidence:
+    """How far this sidestep has gone to the next lane's side, against how far it may go.
+
+    beyond: the event that comes about when it has gone further.
+    """
     limit_m = task.crop.switching.longest_sidestep_m
     moved_m = task.side.sign * (seen.sideways_m - switch.started_m)
-    return Evidence("moved sideways", moved_m, limit_m, "m")
-
-
-def too_far(moved: Evidence) -> bool:
-    """Whether the sidestep has passed its bound."""
-    return moved.threshold is not None and moved.value > moved.threshold
+    return Evidence("moved sideways", moved_m, limit_m, "m", beyond, Bound.ABOVE, alone=True)
 
 
 def began_m(task: Task, seen: Observation, old_m: float) -> float:

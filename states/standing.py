@@ -1,7 +1,8 @@
 """The states in which the wheels stand still: Idle, Checking, Paused, Fault, Finished."""
 
-from fieldnav.messages import CameraName, Evidence
+from fieldnav.messages import Bound, CameraName, Evidence
 from states.behaviour import Observation, Step, Task
+from states.judgement import first_of
 from states.names import Event
 
 CHECK_S = 10.0
@@ -36,17 +37,18 @@ class Checking:
         wrong = [name for name in CameraName if name in self._sizes and not self._fits(name)]
         waited_s = seen.now_s - self._entered_s
         evidence = (
-            Evidence("cameras that give frames", len(self._sizes), len(CameraName), "cameras"),
-            Evidence("wheel modules ready", float(seen.wheels_ready), 1, ""),
-            Evidence("waited", waited_s, CHECK_S, "s"),
+            Evidence("cameras that give frames", len(self._sizes), len(CameraName), "cameras", self._ready),
+            Evidence("wheel modules ready", float(seen.wheels_ready), 1, "", self._ready),
+            Evidence(
+                "cameras of another size", len(wrong), 0, "cameras", Event.FAIL, Bound.ABOVE, alone=True
+            ),
+            Evidence("waited", waited_s, CHECK_S, "s", Event.FAIL, Bound.ABOVE, alone=True),
         )
         if wrong:
             return Step(event=Event.FAIL, evidence=evidence, reason=self._mismatch(wrong[0]))
-        if len(self._sizes) == len(CameraName) and seen.wheels_ready:
-            return Step(event=self._ready, evidence=evidence)
-        if waited_s > CHECK_S:
-            return Step(event=Event.FAIL, evidence=evidence, reason="cameras or wheel modules do not come up")
-        return Step(evidence=evidence)
+        event = first_of(evidence, self._ready, Event.FAIL)
+        reason = "cameras or wheel modules do not come up" if event is Event.FAIL else ""
+        return Step(event=event, evidence=evidence, reason=reason)
 
     def _fits(self, name: CameraName) -> bool:
         camera = self._task.cameras[name]

@@ -1,8 +1,9 @@
 """Follow.Tracking: follow the rows with the leading camera until they end (paper phase 1, III-A.3, III-B)."""
 
-from fieldnav.messages import CameraName, Direction, Evidence, Frame
+from fieldnav.messages import Bound, CameraName, Direction, Evidence, Frame
 from fieldnav.perception.plants import find_plants
 from states.behaviour import Observation, Sight, Step, Task
+from states.judgement import first_of
 from states.lane_watch import LANE_ENDED, driven_m, end_evidence, watch_end
 from states.memory import LaneMemory
 from states.names import Event
@@ -36,16 +37,14 @@ class Tracking:
         self._lane.counts[look.rows_seen] += 1
         unseen_m = self._poorly_seen_m(look.rows_seen, driven_m(seen, self._direction, frame))
         evidence = (
-            *end_evidence(end, LANE_ENDED),
-            Evidence("rows seen", look.rows_seen, len(look.rows) / 2, "rows"),
-            Evidence("rows poorly seen over", unseen_m, LOST_M, "m"),
+            *end_evidence(end, LANE_ENDED, Event.LANE_ENDED),
+            Evidence(
+                "rows seen", look.rows_seen, crop.rows.per_lane / 2, "rows", Event.ROWS_LOST, Bound.BELOW
+            ),
+            Evidence("rows poorly seen over", unseen_m, LOST_M, "m", Event.ROWS_LOST, Bound.ABOVE),
             *guide.evidence(seen.pose),
         )
-        event = None
-        if end.probability >= LANE_ENDED:
-            event = Event.LANE_ENDED
-        elif unseen_m > LOST_M:
-            event = Event.ROWS_LOST
+        event = first_of(evidence, Event.LANE_ENDED, Event.ROWS_LOST)
         return Step(event=event, evidence=evidence, sight=Sight(frame, look.rows, centres, guide.feature))
 
     def _poorly_seen_m(self, rows_seen: int, driven: float) -> float:

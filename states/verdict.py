@@ -33,25 +33,30 @@ def verdict(
     """Hold a frame, looked at as if nothing were known, against the lane that the passing rows made."""
     fit = find(image, crop, camera).lane
     wanted = there.rows_seen if there else crop.rows.per_lane
-    off_m = _off_m(fit, rows, there, look_at_m(canopy_plane(camera, crop)))
-    spacing_m = fit.spacing_m if fit else nan
+    off_m = abs(_off_m(fit, rows, there, look_at_m(canopy_plane(camera, crop))))
+    most_m, uneven = OFF_PLACE * crop.rows.spacing_m, _uneven(fit, crop)
     beside = rows_beside(rows, there, crop) if there else 0
     shown = sum(rows.rows[row].shown > LEAST_SHOWN for row in there.rows if row >= 0) if there else 0
-    evidence = (
-        Evidence("rows that a fresh look shows", fit.rows_seen if fit else 0, wanted, "rows"),
-        Evidence("rows that show plants where they should", shown, wanted, "rows"),
-        Evidence("its lane lies off by", off_m, OFF_PLACE * crop.rows.spacing_m, "m"),
-        Evidence("its row spacing", spacing_m, crop.rows.spacing_m, "m"),
-        Evidence("rows where the wheels will go", beside, 0, "rows"),
-    )
-    even = isnan(spacing_m) or abs(spacing_m / crop.rows.spacing_m - 1) <= OFF_SPACING
-    placed = abs(off_m) <= OFF_PLACE * crop.rows.spacing_m
-    alike = fit is not None and even and placed
+    alike = fit is not None and (isnan(uneven) or uneven <= OFF_SPACING) and off_m <= most_m
     # Few plants at ragged ends may be too few for a fresh look; then those that are seen must be in place.
     seen = (alike and fit is not None and fit.rows_seen >= wanted) or (
         (fit is None or alike) and there is not None and shown >= wanted
     )
-    return Verdict(seen and not beside, evidence)
+    fits = seen and not beside
+    evidence = (
+        Evidence("frame shows the lane as expected", float(fits), 1),
+        Evidence("rows that a fresh look shows", fit.rows_seen if fit else 0, wanted, "rows"),
+        Evidence("rows that show plants where they should", shown, wanted, "rows"),
+        Evidence("its lane lies off by", off_m, most_m, "m"),
+        Evidence("its row spacing is off by the share", uneven, OFF_SPACING),
+        Evidence("rows where the wheels will go", beside, 0, "rows"),
+    )
+    return Verdict(fits, evidence)
+
+
+def _uneven(fit: LaneFit | None, crop: CropProfile) -> float:
+    """How far the row spacing is off the profile's, as a share of it; NaN where it is not known."""
+    return abs(fit.spacing_m / crop.rows.spacing_m - 1) if fit else nan
 
 
 def _off_m(fit: LaneFit | None, rows: Crossing, there: NextLane | None, about_m: float) -> float:

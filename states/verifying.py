@@ -1,17 +1,18 @@
 """Sidestep.Verifying: draw near the new lane and see whether it is what it should be, before following."""
 
-from fieldnav.messages import CameraName, Direction, Evidence, Frame, Motion
+from fieldnav.messages import Bound, CameraName, Direction, Evidence, Frame, Motion
 from fieldnav.perception.canopy import canopy_plane
 from fieldnav.perception.sidestep.lane_entry import Entry, entry
 from fieldnav.perception.sidestep.next_lane import NextLane
 from fieldnav.perception.sidestep.passing_rows import Crossing, look_at_m
 from states.behaviour import Observation, Sight, Step, Task
 from states.clearance import nearest_end_m
+from states.judgement import first_of, holds
 from states.memory import LaneMemory, SwitchMemory
 from states.names import Event
 from states.passing import LIKELY, found, lane_evidence, look
-from states.settling import entry_evidence, towards, within
-from states.sideways import sideways, too_far, way
+from states.settling import entry_evidence, furthest_off, towards
+from states.sideways import sideways, way
 from states.verdict import verdict
 
 FRAMES_FITTING = 4
@@ -46,10 +47,11 @@ class Verifying:
             return self._step.continued()
         rows, sight = look(self._task, switch, frame, seen)
         there = found(self._task, self._lane, rows)
-        nearing = Evidence("drawn near", abs(seen.forward_m - self._from_m), LONGEST_NEARING_M, "m")
+        drawn_m = abs(seen.forward_m - self._from_m)
+        nearing = Evidence("drawn near", drawn_m, LONGEST_NEARING_M, "m", bound=Bound.ABOVE)
         evidence = (*lane_evidence(self._task, self._lane, there), nearing, way(self._task, switch, seen))
         end_m = nearest_end_m(rows, self._task.cameras[frame.camera])
-        self._near = self._near or there is None or end_m <= NEAR_M or too_far(nearing)
+        self._near = self._near or there is None or end_m <= NEAR_M or holds(nearing)
         if there and not self._near:
             motion = self._nearing(self._entry(rows, there, frame))
             self._step = Step(motion, None, evidence, sight)
@@ -73,21 +75,29 @@ class Verifying:
         judged = verdict(frame.image, rows, there, crop, camera)
         self._looked += 1
         self._fitting += judged.fits and there is not None and there.probability >= LIKELY
-        evidence = (
-            *evidence,
-            *judged.evidence,
-            Evidence("frames that show the lane as expected", self._fitting, FRAMES_FITTING, "frames"),
+        at = self._entry(rows, there, frame) if there else None
+        evidence = (*evidence, *judged.evidence, *self._looks_evidence(at))
+        event = first_of(evidence, Event.LANE_VERIFIED, Event.LANE_OFF_CENTRE, Event.LANE_REFUSED)
+        if event is not Event.LANE_REFUSED:
+            return Step(sideways(self._task, 0.0), event, evidence, sight)
+        unsure = there is not None and there.probability < LIKELY
+        switch.refused = UNSURE if judged.fits and unsure else UNLIKE
+        return Step(sideways(self._task, 0.0), event, evidence, sight, switch.refused)
+
+    def _looks_evidence(self, at: Entry | None) -> tuple[Evidence, ...]:
+        """Where enough frames fit the lane is taken, or centred again; where they do not it is refused."""
+        fitting, verified, off_centre = self._fitting, Event.LANE_VERIFIED, Event.LANE_OFF_CENTRE
+        looked = Evidence("frames looked at", self._looked, FRAMES_LOOKED, "frames", Event.LANE_REFUSED)
+        if at is None:
+            return (Evidence("frames that fit", fitting, FRAMES_FITTING, "frames"), looked)
+        off = furthest_off(at, self._task)
+        return (
+            Evidence("frames that fit", fitting, FRAMES_FITTING, "frames", verified),
+            looked,
+            *entry_evidence(at, self._task, verified),
+            Evidence("frames that fit, centred or not", fitting, FRAMES_FITTING, "frames", off_centre),
+            Evidence("furthest off, over what counts as centred", off, 1.0, "", off_centre, Bound.ABOVE),
         )
-        still = sideways(self._task, 0.0)
-        if there is None or self._fitting < FRAMES_FITTING:
-            if self._looked < FRAMES_LOOKED:
-                return Step(still, None, evidence, sight)
-            unsure = there is not None and there.probability < LIKELY
-            switch.refused = UNSURE if judged.fits and unsure else UNLIKE
-            return Step(still, Event.LANE_REFUSED, evidence, sight, switch.refused)
-        at = self._entry(rows, there, frame)
-        event = Event.LANE_VERIFIED if within(at, self._task) else Event.LANE_OFF_CENTRE
-        return Step(still, event, (*evidence, *entry_evidence(at, self._task)), sight)
 
     def _entry(self, rows: Crossing, there: NextLane, frame: Frame) -> Entry:
         plane = canopy_plane(self._task.cameras[frame.camera], self._task.crop)

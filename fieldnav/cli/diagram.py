@@ -1,9 +1,14 @@
-"""`fieldnav diagram`: the state machine as a picture, made from the table it runs on."""
+"""`fieldnav diagram`: the state machine as a picture, made from the table it runs on; a run painted in."""
 
 from enum import Enum
+from pathlib import Path
 from typing import Annotated
 
 import typer
+
+from fieldnav.cli.log_options import RUN_HELP, RUNS, RunsOption
+from fieldnav.errors import OutputError, SettingsError
+from fieldnav.journal.directory import find_run
 
 
 class Format(Enum):
@@ -12,9 +17,42 @@ class Format(Enum):
 
 
 def diagram(
-    format: Annotated[Format, typer.Option(help="Mermaid text, or a picture as SVG.")] = Format.MERMAID,
+    format: Annotated[
+        Format | None,
+        typer.Option(help="Mermaid text, or a picture as SVG.", show_default="mermaid; svg with --run"),
+    ] = None,
+    run: Annotated[
+        str | None,
+        typer.Option(help=f"Paint a run in: the time in each state, the transitions made. {RUN_HELP}"),
+    ] = None,
+    runs: RunsOption = RUNS,
+    out: Annotated[
+        Path | None, typer.Option(metavar="FILE", help="Write it there instead of printing it.")
+    ] = None,
 ) -> None:
     """Print the state machine's diagram, generated from the table that the machine runs on."""
+    if run is not None and format is Format.MERMAID:
+        raise SettingsError("--format: 'mermaid' cannot have a run painted in; allowed with --run is svg")
+    made = _plain(format or Format.MERMAID) if run is None else _painted(run, runs)
+    if out is None:
+        print(made)
+        return
+    try:
+        out.write_text(made + "\n", encoding="utf-8")
+    except OSError as error:
+        raise OutputError(
+            f"--out: {out} cannot be written: {error.strerror}; allowed is a file in a folder you can write"
+        ) from error
+
+
+def _plain(format: Format) -> str:
     from states.diagram import mermaid, svg  # noqa: PLC0415 - other commands need not wait for the states
 
-    print(mermaid() if format is Format.MERMAID else svg())
+    return mermaid() if format is Format.MERMAID else svg()
+
+
+def _painted(run: str, runs: Path) -> str:
+    from fieldnav.cli.diagram_paint import paint_of  # noqa: PLC0415 - likewise
+    from states.drawing.painted import painted  # noqa: PLC0415 - likewise
+
+    return painted(paint_of(find_run(run, runs)))

@@ -112,12 +112,12 @@ def line_of(entry: Entry, sequence: int, start_utc: datetime) -> dict[str, Any]:
 
 def judged_as_json(judged: Evidence) -> dict[str, Any]:
     """A quantity as plain JSON values; what it is a condition of only where it is one."""
-    plain = {
-        "name": judged.name,
-        "value": _number(judged.value),
-        "threshold": _number(judged.threshold),
-        "unit": judged.unit,
-    }
+    value, threshold = _number(judged.value), _number(judged.threshold)
+    if judged.fires is not None and value is not None and threshold is not None:
+        decided = judged.bound.holds(judged.value, judged.threshold)  # type: ignore[arg-type]
+        if judged.bound.holds(value, threshold) != decided:  # rounding must not gainsay what was decided
+            value, threshold = float(judged.value), float(judged.threshold)  # type: ignore[arg-type]
+    plain = {"name": judged.name, "value": value, "threshold": threshold, "unit": judged.unit}
     if judged.fires is None:
         return plain
     condition = {"fires": judged.fires.value, "bound": judged.bound.value}

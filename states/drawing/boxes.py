@@ -56,7 +56,7 @@ def nodes_of(column: int) -> list[Node]:
 
 def composites_of(nodes: Sequence[Node]) -> list[Path]:
     """The composites around some leaves, the outer before the inner."""
-    found = {node[:depth] for node in nodes if node for depth in range(1, len(node))}
+    found = dict.fromkeys(node[:depth] for node in nodes if node for depth in range(1, len(node)))
     return sorted(found, key=len)
 
 

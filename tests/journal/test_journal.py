@@ -12,9 +12,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from fieldnav.errors import FieldnavError, OutputError
-from fieldnav.journal.entry import Entry, line_of
+from fieldnav.journal.entry import Entry, Judged, judged_as_json, line_of
 from fieldnav.journal.journal import Journal, read
-from fieldnav.messages import CameraName, Evidence, Frame, Twist
+from fieldnav.messages import Bound, CameraName, Evidence, Frame, Twist
 from states.names import Event
 
 START = datetime(2026, 5, 1, 8, 30, tzinfo=UTC)
@@ -179,3 +179,13 @@ def test_a_stray_carriage_return_hides_none_of_the_lines_after_it(tmp_path: Path
     path.write_bytes(b"\n".join([first, second[:40] + b"\r" + b"x" + second[40:], third, b""]))
     with pytest.raises(FieldnavError, match="line 2 is not a line"):
         read(path)
+
+
+def test_rounding_never_gainsays_what_was_decided() -> None:
+    past, limit = 15.000000000000002, 15.0
+    just = Evidence("waited", past, limit, "s", Event.FAIL, Bound.ABOVE)
+
+    judged = Judged.model_validate(judged_as_json(just))
+
+    assert judged.holds
+    assert judged.value == past

@@ -1,6 +1,7 @@
 """A drawn field and what a behaviour is told of it, without a robot, a clock or a bus."""
 
-from collections.abc import Mapping
+import operator
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from math import radians, tan
 from types import SimpleNamespace
@@ -9,13 +10,14 @@ import cv2
 import numpy as np
 import pytest
 
-from fieldnav.messages import CameraName, Direction, Frame, Image, Side
+from fieldnav.messages import Bound, CameraName, Direction, Evidence, Frame, Image, Side
 from fieldnav.odometry import Pose
 from fieldnav.perception.canopy import canopy_plane
 from fieldnav.pinhole import Pinhole
 from fieldnav.settings.crop import CropProfile
 from fieldnav.settings.loading import load_crop
 from states.behaviour import Behaviour, Observation, Step, Task
+from states.names import Event
 
 SOIL_BGR, LEAF_BGR = (72, 96, 122), (50, 150, 70)
 LEAF = 0.4
@@ -130,6 +132,7 @@ class Stepping:
         """Let the behaviour lead until it has an event or so many frames are over; returns its last step."""
         for _ in range(frames):
             step = behaviour.step(self.situation.seen({self.direction.trailing: self.look(plants_m)}))
+            assert_explained(step)
             if step.event:
                 break
             twist = step.motion.twist
@@ -138,6 +141,44 @@ class Stepping:
             here.forward_m, here.sideways_m = here.pose.x_m, here.pose.y_m
             here.stopped = step.motion.hold or not (twist.vx_mps or twist.vy_mps)
         return step
+
+
+COMPARED = {
+    Bound.AT_LEAST: operator.ge,
+    Bound.ABOVE: operator.gt,
+    Bound.AT_MOST: operator.le,
+    Bound.BELOW: operator.lt,
+}
+
+
+def _holds(judged: Evidence) -> bool:
+    return judged.threshold is not None and COMPARED[judged.bound](judged.value, judged.threshold)
+
+
+def _comes_about(step: Step, event: object) -> bool:
+    """One of its conditions that are enough alone holds, or all of the others, of which there is one."""
+    alone = [_holds(each) for each in step.evidence if each.fires is event and each.alone]
+    together = [_holds(each) for each in step.evidence if each.fires is event and not each.alone]
+    return any(alone) or (bool(together) and all(together))
+
+
+def assert_explained(step: Step) -> None:
+    """What was judged says why the event came about, and of every other why it did not."""
+    told = f"{step.event}, {step.reason!r}: {step.evidence}"
+    names = [judged.name for judged in step.evidence]
+    assert len(names) == len(set(names)), f"two quantities of one name: {told}"
+    if step.event is not None:
+        assert _comes_about(step, step.event), f"the conditions do not hold: {told}"
+        return
+    for event in {judged.fires for judged in step.evidence} - {None}:
+        assert isinstance(event, Event)
+        assert not _comes_about(step, event), f"{event} should have come about: {told}"
+
+
+@pytest.fixture(scope="session")
+def explained() -> Callable[[Step], None]:
+    """Asserts of a behaviour's step that its evidence explains it."""
+    return assert_explained
 
 
 @pytest.fixture(scope="session")
