@@ -18,6 +18,7 @@ from fieldnav.cli.detect import detect
 from fieldnav.cli.diagram import diagram
 from fieldnav.cli.log import log
 from fieldnav.cli.profiles import profiles
+from fieldnav.cli.replay import replay
 from fieldnav.cli.run import run as drive
 from fieldnav.cli.simulate import simulate
 from fieldnav.errors import FieldnavError
@@ -62,6 +63,7 @@ app.command()(detect)
 app.command()(count)
 app.command()(check)
 app.add_typer(log)
+app.command()(replay)
 app.add_typer(bench)
 app.add_typer(profiles)
 app.command()(diagram)

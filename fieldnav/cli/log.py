@@ -1,50 +1,25 @@
 """`fieldnav log`: the runs there are, and what happened in one, with the reason for each transition."""
 
-from pathlib import Path
-from typing import Annotated
-
 import typer
 
-from fieldnav.cli.console import out, print_json
-from fieldnav.cli.log_tables import heading, runs_table, transitions_table
-from fieldnav.journal.directory import find_run, runs_in
-from fieldnav.journal.journal import read
-from fieldnav.journal.outcome import overview
+from fieldnav.cli.log_diff import diff
+from fieldnav.cli.log_export import export
+from fieldnav.cli.log_list import list_runs
+from fieldnav.cli.log_plot import plot
+from fieldnav.cli.log_report import report
+from fieldnav.cli.log_show import show
+from fieldnav.cli.log_stats import stats
+from fieldnav.cli.log_tail import tail
+from fieldnav.cli.log_why import why
 
 log = typer.Typer(name="log", no_args_is_help=True, help="Read what past runs did, and why.")
 
-RUNS = Path("runs")
-
-RunsOption = Annotated[Path, typer.Option("--runs", help="The folder that holds the runs.")]
-JsonOption = Annotated[bool, typer.Option("--json", help="Print JSON, for programs.")]
-
-
-@log.command("list")
-def list_runs(runs: RunsOption = RUNS, json: JsonOption = False) -> None:
-    """List the runs, newest first, with how each ended."""
-    overviews = [overview(run) for run in runs_in(runs)]
-    if json:
-        print_json([each.model_dump(mode="json") for each in overviews])
-    elif overviews:
-        out().print(runs_table(str(runs), overviews))
-    else:
-        print(f"no runs in {runs}; make one with: fieldnav simulate demo")
-
-
-@log.command()
-def show(
-    run: Annotated[
-        str, typer.Argument(help="A run's name, its path, or 'last'; of a part of a name, the newest run.")
-    ] = "last",
-    runs: RunsOption = RUNS,
-    json: JsonOption = False,
-) -> None:
-    """Show a run's transitions: when, from where to where, on which event, and why."""
-    directory = find_run(run, runs)
-    lines = read(directory.journal)
-    if json:
-        print_json([line.model_dump(mode="json") for line in lines])
-        return
-    console = out()
-    console.print(heading(overview(directory)))
-    console.print(transitions_table(lines))
+log.command("list")(list_runs)
+log.command()(show)
+log.command()(why)
+log.command()(stats)
+log.command()(plot)
+log.command()(report)
+log.command()(diff)
+log.command()(tail)
+log.command()(export)

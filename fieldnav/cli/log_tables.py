@@ -1,29 +1,52 @@
 """The tables of `fieldnav log`."""
 
 from collections.abc import Sequence
-from math import isfinite
 
 from rich.table import Table
 from rich.text import Text
 
 from fieldnav.cli.console import table
-from fieldnav.journal.entry import Judged, Line
+from fieldnav.journal.chances import deciding
+from fieldnav.journal.entry import Line
+from fieldnav.journal.moment import clock
 from fieldnav.journal.outcome import Outcome, Overview
+from fieldnav.journal.words import decisive, judgement
 
 COLOURS = {
     Outcome.FINISHED: "green",
     Outcome.STOPPED: "red",
     Outcome.BROKEN_OFF: "yellow",
+    Outcome.RUNNING: "cyan",
     Outcome.UNREADABLE: "yellow",
 }
-SECONDS_A_MINUTE = 60
+WIDE = 110
+"""Columns from which on a transition's states stand side by side."""
 
 
-def runs_table(title: str, overviews: Sequence[Overview]) -> Table:
-    """One line a run."""
-    columns = ("run", "outcome", "lanes", "switches", "distance", "time", "ended in")
-    rows = [(each.run, _outcome(each), *_figures(each), _ending(each)) for each in overviews]
-    return table(f"runs in {title}", columns, rows, right=("lanes", "switches", "distance", "time"))
+def runs_table(title: str, overviews: Sequence[Overview], width: int = WIDE) -> Table:
+    """One line a run; where there is little room the ending stands beneath the name."""
+    if width < WIDE:
+        columns: tuple[str, ...] = ("run", "outcome", "lanes", "way", "time")
+        rows = [_short(each) for each in overviews]
+    else:
+        columns = ("run", "outcome", "lanes", "switches", "distance", "time", "stops", "ended in")
+        rows = [
+            (each.run, _outcome(each), *_figures(each), _stops(each), _ending(each)) for each in overviews
+        ]
+    return table(
+        f"runs in {title}", columns, rows, right=("lanes", "switches", "distance", "way", "time", "stops")
+    )
+
+
+def _short(each: Overview) -> tuple[str | Text, ...]:
+    lanes, _, distance, time = _figures(each)
+    return (
+        Text("\n").join([Text(each.run, style="bold"), _ending(each)]),
+        _outcome(each),
+        lanes,
+        distance,
+        time,
+    )
 
 
 def heading(each: Overview) -> Text:
@@ -35,12 +58,15 @@ def heading(each: Overview) -> Text:
     return Text.assemble((each.run, "bold"), "  ", _outcome(each), f"  {figures}", "\n", _ending(each), "\n")
 
 
-def transitions_table(lines: Sequence[Line]) -> Table:
-    """One line a transition: its reason, then what was judged."""
-    columns = ("time", "from", "to", "event", "lane", "rows", "because")
+def transitions_table(lines: Sequence[Line], width: int = WIDE) -> Table:
+    """One line a transition: its reason, then what was judged; fewer columns where there is little room."""
+    if width < WIDE:
+        return _narrow(lines)
+    columns = ("seq", "time", "from", "to", "event", "lane", "rows", "because")
     rows = [
         (
-            _clock(line.stamp_s),
+            str(line.seq),
+            clock(line.stamp_s),
             line.source,
             line.target,
             line.event,
@@ -50,46 +76,46 @@ def transitions_table(lines: Sequence[Line]) -> Table:
         )
         for line in lines
     ]
-    return table("", columns, rows, right=("time", "lane", "rows"))
+    return table("", columns, rows, right=("seq", "time", "lane", "rows"))
+
+
+def _narrow(lines: Sequence[Line]) -> Table:
+    """From where to where above the reasons."""
+    rows = [
+        (
+            str(line.seq),
+            clock(line.stamp_s),
+            "" if line.lane is None else str(line.lane),
+            Text("\n").join([Text(f"{line.event}: {line.source} -> {line.target}"), _because(line)]),
+        )
+        for line in lines
+    ]
+    return table(
+        "", ("seq", "time", "lane", "event, and because of what"), rows, right=("seq", "time", "lane")
+    )
 
 
 def _because(line: Line) -> Text:
     """The reason, which stands out where there is one, above the deciding quantities."""
     reason = [Text(line.reason, style="bold")] if line.reason else []
-    return Text("\n").join([*reason, *(Text(judgement(judged)) for judged in decisive(line.evidence))])
-
-
-def decisive(evidence: Sequence[Judged]) -> list[Judged]:
-    """The quantities held against a threshold; all of them when none was."""
-    return [judged for judged in evidence if judged.threshold is not None] or list(evidence)
-
-
-def judgement(judged: Judged) -> str:
-    """A quantity as a person reads it: its value, which way it lies from its threshold, the unit."""
-    unit = f" {judged.unit}" if judged.unit else ""
-    if judged.value is None:
-        return f"{judged.name} unknown"
-    value = f"{judged.name} {_figure(judged.value)}"
-    if judged.threshold is None:
-        return f"{value}{unit}"
-    relation = "<" if judged.value < judged.threshold else ">" if judged.value > judged.threshold else "="
-    return f"{value} {relation} {_figure(judged.threshold)}{unit}"
-
-
-def _figure(value: float) -> str:
-    return f"{value:.3g}" if abs(value) < 1000 else f"{value:.0f}"  # noqa: PLR2004 - digits shown, no decision
+    judged = deciding(line.event, line.evidence) or decisive(line.evidence)
+    return Text("\n").join([*reason, *(Text(judgement(each)) for each in judged)])
 
 
 def _figures(each: Overview) -> tuple[str, str, str, str]:
     if each.summary is None:
-        return "", "", "", _clock(each.seconds)
+        return "", "", "", clock(each.seconds)
     lanes, switches = each.summary.lanes, each.summary.switches
     return (
         f"{lanes.done}/{lanes.total}",
         f"{switches.succeeded}/{switches.attempted}",
         f"{each.summary.distance_m:.1f} m",
-        _clock(each.summary.duration_s),
+        clock(each.summary.duration_s),
     )
+
+
+def _stops(each: Overview) -> str:
+    return str(each.summary.faults) if each.summary else ""
 
 
 def _outcome(each: Overview) -> Text:
@@ -100,10 +126,3 @@ def _ending(each: Overview) -> Text:
     """The last state, and why it was entered."""
     parts = [Text(each.last_state)] if each.last_state else []
     return Text(": ").join([*parts, Text(each.reason, style="bold")] if each.reason else parts)
-
-
-def _clock(seconds: float) -> str:
-    if not isfinite(seconds):
-        return "unknown"
-    minutes, rest = divmod(seconds, SECONDS_A_MINUTE)
-    return f"{int(minutes)}:{rest:04.1f}"

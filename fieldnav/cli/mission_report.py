@@ -2,7 +2,7 @@
 
 from rich.table import Table
 
-from fieldnav.cli.console import table
+from fieldnav.cli.console import print_error, table
 from fieldnav.journal.directory import RunDirectory
 from fieldnav.journal.outcome import overview
 from fieldnav.journal.summary import Summary, Truth
@@ -30,6 +30,16 @@ def report(directory: RunDirectory, summary: Summary) -> Table:
     if summary.truth:
         rows += against_truth(summary.truth)
     return table("", ("", ""), rows)
+
+
+def reported(directory: RunDirectory) -> None:
+    """Write the run's report.html; where that fails a line says so, and the run is what it was."""
+    from fieldnav.report.writing import write_report  # noqa: PLC0415 - a run that refuses to begin needs none
+
+    try:
+        write_report(directory)
+    except Exception as error:  # the robot has done its work, whatever is wrong with the page about it
+        print_error(f"{directory.report}: was not written: {error}; try: fieldnav log report")
 
 
 def _pace(summary: Summary) -> tuple[str, str]:

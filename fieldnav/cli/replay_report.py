@@ -57,7 +57,8 @@ def _commands(done: "Replayed") -> str:
     if not commands.rounds:
         return "every command the same, bit for bit"
     return (
-        f"commands differ in {commands.rounds} of {done.rounds} rounds, first at {clock(commands.first_s or 0)}, "
+        f"commands differ in {commands.rounds} of {done.rounds} rounds, "
+        f"first at {clock(commands.first_s or 0)}, "
         f"by at most {max(commands.vx_mps, commands.vy_mps):.3f} m/s and "
         f"{degrees(commands.yaw_rate_rps):.2f} deg/s"
     )

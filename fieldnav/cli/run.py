@@ -132,6 +132,7 @@ def _drive(
 ) -> "tuple[RunDirectory | None, Summary | None]":
     """Check, then drive; nothing where a check has failed."""
     from fieldnav.cli.frames import quiet_videos  # noqa: PLC0415 - see _broken_off
+    from fieldnav.cli.mission_report import reported  # noqa: PLC0415
     from fieldnav.cli.run_terminal import terminal  # noqa: PLC0415
     from fieldnav.mission.outset import begun, cleared, silenced  # noqa: PLC0415
     from fieldnav.mission.pace import RunClock  # noqa: PLC0415
@@ -148,5 +149,8 @@ def _drive(
             print_error(f"nothing was driven: {'; '.join(f'{each.check}: {each.figure}' for each in failed)}")
             return None, None
         directory, begun_utc = begun(order, known, parent, now_utc)
-        with terminal(order.lanes, quiet) as watchers:
-            return directory, drive(order, gear, directory, begun_utc, clock, watchers)
+        try:
+            with terminal(order.lanes, quiet) as watchers:
+                return directory, drive(order, gear, directory, begun_utc, clock, watchers)
+        finally:
+            reported(directory)

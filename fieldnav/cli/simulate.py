@@ -99,20 +99,22 @@ def _run(field: "FieldSettings", robot: str, side: Side, parent: Path, video: bo
 
 def _drive_for_programs(run: "Run") -> int:
     """Drive and print the figures as JSON; returns the exit status."""
-    from fieldnav.cli.mission_report import succeeded  # noqa: PLC0415 - see _run
+    from fieldnav.cli.mission_report import reported, succeeded  # noqa: PLC0415 - see _run
     from fieldnav.journal.summary import to_json  # noqa: PLC0415
     from fieldnav.mission.simulated import simulate as drive  # noqa: PLC0415
 
     done = drive(run)
+    reported(done.directory)
     print_json({"run": str(done.directory.path), **json.loads(to_json(done.summary))})
     return 0 if succeeded(done.summary) else STOPPED
 
 
 def _drive_for_people(run: "Run") -> int:
     """Drive and print a table; returns the exit status."""
-    from fieldnav.cli.mission_report import report, succeeded  # noqa: PLC0415 - see _run
+    from fieldnav.cli.mission_report import report, reported, succeeded  # noqa: PLC0415 - see _run
 
     done = _drive_watched(run)
+    reported(done.directory)
     out().print(report(done.directory, done.summary))
     print(f"run directory: {done.directory.path}")
     return 0 if succeeded(done.summary) else STOPPED

@@ -5,7 +5,6 @@ transitions are synced before the wheels obey. Those between are handed to the s
 a killed process cannot undo, and synced beside the loop: a power loss may cost the last of them.
 """
 
-import fcntl
 import os
 from concurrent.futures import Future, ThreadPoolExecutor
 from functools import partial
@@ -17,6 +16,7 @@ from pydantic import BaseModel, ConfigDict, ValidationError
 
 from fieldnav.errors import FieldnavError, OutputError
 from fieldnav.journal.files import append_line, unwritable
+from fieldnav.journal.ledger_lock import hold
 
 LAST_BYTES = 65536
 """Of the file's end, in which a whole line is looked for: a hundred of them."""
@@ -57,7 +57,7 @@ class Ledger:
         except OSError as error:
             raise unwritable(path, error) from error
         try:
-            fcntl.flock(self._file, fcntl.LOCK_EX | fcntl.LOCK_NB)
+            hold(self._file)
         except OSError as error:
             self._file.close()
             raise OutputError(f"{path}: another fieldnav drives this run") from error

@@ -6,7 +6,8 @@ from pydantic import BaseModel, ConfigDict
 
 from fieldnav.errors import FieldnavError
 from fieldnav.journal.directory import RunDirectory
-from fieldnav.journal.journal import read
+from fieldnav.journal.ledger_lock import being_driven
+from fieldnav.journal.lines import JournalLines
 from fieldnav.journal.summary import Summary, read_summary
 
 
@@ -14,6 +15,7 @@ class Outcome(Enum):
     FINISHED = "finished"
     STOPPED = "stopped"
     BROKEN_OFF = "broken off"
+    RUNNING = "running"
     UNREADABLE = "unreadable"
 
 
@@ -32,17 +34,18 @@ class Overview(BaseModel):
 
 
 def overview(directory: RunDirectory) -> Overview:
-    """A run's overview; never raises, an unreadable run is one of the outcomes."""
+    """A run's overview, of its journal the last line alone; an unreadable run is one of the outcomes."""
     name, path = directory.path.name, str(directory.path)
     try:
-        lines, summary = read(directory.journal), read_summary(directory.summary)
+        with JournalLines(directory.journal) as lines:
+            last = lines.last
+        summary = read_summary(directory.summary)
     except FieldnavError as error:
         return Overview(run=name, path=path, outcome=Outcome.UNREADABLE, reason=str(error))
-    last = lines[-1] if lines else None
     return Overview(
         run=name,
         path=path,
-        outcome=_outcome(summary),
+        outcome=_outcome(directory, summary),
         last_state=last.target if last else "",
         reason=last.reason if last and not (summary and summary.completed) else "",
         seconds=last.stamp_s if last else 0.0,
@@ -50,7 +53,9 @@ def overview(directory: RunDirectory) -> Overview:
     )
 
 
-def _outcome(summary: Summary | None) -> Outcome:
+def _outcome(directory: RunDirectory, summary: Summary | None) -> Outcome:
+    if being_driven(directory.ledger):
+        return Outcome.RUNNING
     if summary is None:
         return Outcome.BROKEN_OFF
     return Outcome.FINISHED if summary.completed else Outcome.STOPPED

@@ -1,6 +1,7 @@
 """The composition root of a run on a robot: the same mission as in simulation, on the wall clock."""
 
 import gc
+import sys
 from collections.abc import Sequence
 from contextlib import ExitStack
 from dataclasses import dataclass, field
@@ -33,6 +34,9 @@ from fieldnav.settings.crop import CropProfile
 from fieldnav.settings.robot import Robot
 from states.behaviour import Task
 from states.names import Event
+
+PATIENCE_S = 0.0005
+"""The loop waits no longer for a thread that has the interpreter: the recorder's, a camera's."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -106,6 +110,8 @@ def drive(
         pace = Pace(clock)
         requests = (desk, *watchers.requests)
         driving = Driving(mission, operating, board, bus, requests, pace, clock)
+        stack.callback(sys.setswitchinterval, sys.getswitchinterval())
+        sys.setswitchinterval(PATIENCE_S)
         gc.collect()
         gc.freeze()  # what lives for ever need not be looked through again while the robot drives
         try:

@@ -12,11 +12,12 @@ import pytest
 from rich.text import Text
 
 from fieldnav.cli.app import run
-from fieldnav.cli.log_tables import decisive, judgement, transitions_table
+from fieldnav.cli.log_tables import transitions_table
 from fieldnav.journal.directory import RunDirectory
 from fieldnav.journal.entry import Entry, Judged, Line
 from fieldnav.journal.journal import Journal
 from fieldnav.journal.summary import Lanes, Summary, Switches, write_summary
+from fieldnav.journal.words import decisive, judgement
 from fieldnav.messages import Evidence
 
 Printed = Callable[[], str]
@@ -67,7 +68,7 @@ def test_a_transition_is_told_with_the_figure_that_decided_it(runs: Path, printe
     assert run(["log", "show", "last"]) == 0
 
     line = next(line for line in printed().splitlines() if "lane ended" in line)
-    assert line.split()[:3] == ["1:25.4", "Forward.Follow.Tracking", "Forward.Exit"]
+    assert line.split()[:4] == ["1", "1:25.4", "Forward.Follow.Tracking", "Forward.Exit"]
     assert "no plant in the top half 0.53 > 0.4 s" in line
     assert "plants 41" not in line
 
@@ -157,8 +158,19 @@ def test_a_journal_with_a_number_beyond_all_numbers_is_one_line(
 
     assert run(["log", "show"]) == 2
     assert "journal.jsonl: line 2 is not a line of a journal" in capsys.readouterr().err
+
+
+def test_the_list_asks_no_more_of_a_journal_than_its_last_line(runs: Path, printed: Printed) -> None:
+    journal = a_run(runs, "demo", completed=False).journal
+    journal.write_bytes(b"garbage\n" + journal.read_bytes())
+    torn = a_run(runs, "torn", completed=False, hour=9).journal
+    torn.write_bytes(torn.read_bytes() + b"garbage\ngarbage\n")
+
     assert run(["log", "list"]) == 0
-    assert "unreadable" in capsys.readouterr().out
+
+    worse, better = printed().splitlines()[2:]
+    assert "unreadable" in worse and "journal.jsonl: line 4 is not a line of a journal" in worse
+    assert "stopped" in better and "Fault.Recoverable: rear camera silent" in better
 
 
 def test_a_summary_with_a_number_beyond_all_numbers_is_shown(runs: Path, printed: Printed) -> None:

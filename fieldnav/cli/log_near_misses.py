@@ -1,0 +1,46 @@
+"""The events that nearly came about in a run, as far as its recording tells."""
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from fieldnav.errors import FieldnavError
+from fieldnav.journal.directory import RunDirectory
+
+if TYPE_CHECKING:
+    from fieldnav.report.near_misses import NearMiss
+
+PIECES = "recording*.mcap"
+MOST = 10
+
+
+@dataclass(frozen=True, slots=True)
+class Missed:
+    """The closest; lacking: why nothing is known of them."""
+
+    misses: "tuple[NearMiss, ...]" = ()
+    lacking: str = ""
+
+
+def is_recorded(directory: RunDirectory) -> bool:
+    """Whether there is a file of a recording; told without what it takes to read one."""
+    return any(directory.path.glob(PIECES))
+
+
+def near_misses(directory: RunDirectory) -> Missed:
+    """The closest of all that was judged."""
+    if not is_recorded(directory):
+        return Missed(lacking="near misses are not known: this run has no recording")
+    from fieldnav.recording.recording import Recording  # noqa: PLC0415 - slow to import, and often not needed
+    from fieldnav.report.near_misses import NearMisses  # noqa: PLC0415
+
+    try:
+        recording = Recording.open(directory)
+        if recording is None:
+            return Missed(lacking="near misses are not known: this run has no recording")
+        with recording:
+            found = NearMisses()
+            for step in recording.steps():
+                found.add(step)
+            return Missed(tuple(found.closest(MOST)))
+    except FieldnavError as error:
+        return Missed(lacking=f"near misses are not known: {error}")

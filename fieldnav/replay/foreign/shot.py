@@ -1,0 +1,22 @@
+"""One picture of a recording, not decoded before somebody looks at it."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+from fieldnav.messages import Image
+
+NS_PER_S = 1_000_000_000
+
+
+@dataclass(frozen=True, slots=True)
+class Shot:
+    """When it was taken, by the recording's own clock, and how to decode it.
+
+    name: what messages call it. picture: gives shape (height, width, 3), blue green red; raises DriverError.
+    jpeg: its bytes, where it is one.
+    """
+
+    name: str
+    stamp_ns: int
+    picture: Callable[[], Image]
+    jpeg: bytes | None = None

@@ -1,0 +1,87 @@
+"""How the robot and its computer fared: battery, temperature, loop, recording."""
+
+from collections.abc import Iterable
+
+import numpy as np
+
+from fieldnav.journal.moment import clock
+from fieldnav.messages import Floats
+from fieldnav.recording.records import Gap
+from fieldnav.report.material import Material
+from fieldnav.report.trail import Trail
+from fieldnav.report.words import counted, fixed
+
+MS_A_SECOND = 1000
+Facts = list[tuple[str, str]]
+
+
+def health_of(material: Material) -> Facts:
+    """A label and a value each; only what is known."""
+    facts = [*_battery(material.trail), *_loop(material), *_recording(material)]
+    if material.summary:
+        facts += [("warning", warning) for warning in material.summary.warnings]
+    return facts
+
+
+def truth_of(material: Material) -> Facts:
+    """What only a simulation knows; nothing on a robot."""
+    truth = material.summary.truth if material.summary else None
+    if truth is None:
+        return []
+    track, heading = truth.cross_track_cm, truth.heading_deg
+    return [
+        (
+            "true cross-track error",
+            f"{fixed(track.mean, 2)} cm on average, 95 % within {fixed(track.p95, 2)}, "
+            f"at most {fixed(track.max, 2)} cm",
+        ),
+        (
+            "true heading error",
+            f"{fixed(heading.mean, 2)}° on average, at most {fixed(heading.max, 2)}°",
+        ),
+        ("crop plants run over", str(truth.crop_plants_run_over)),
+        ("lanes missed, repeated", f"{truth.lanes_missed}, {truth.lanes_repeated}"),
+    ]
+
+
+def _battery(trail: Trail) -> Facts:
+    charge, volts, degrees = map(_known, (trail.charge_percent, trail.battery_v, trail.temperature_c))
+    facts = []
+    if len(charge):
+        facts.append(("battery", f"{charge[0]:.0f} % at the beginning, {charge[-1]:.0f} % at the end"))
+    if len(volts):
+        facts.append(("lowest voltage of a module", fixed(float(volts.min()), 1, "V")))
+    if len(degrees):
+        facts.append(("hottest module", fixed(float(degrees.max()), 0, "°C")))
+    return facts
+
+
+def _loop(material: Material) -> Facts:
+    facts = []
+    loop = material.summary.loop if material.summary else None
+    if loop is not None:
+        late = f"99 % of the rounds within {loop.late_p99_ms:.0f} ms, at most {loop.late_max_ms:.0f} ms"
+        facts.append(("lateness of the loop", f"{late}, of {counted(loop.rounds, 'round')}"))
+    if len(material.trail) > 1:
+        apart_ms = np.diff(material.trail.time_s) * MS_A_SECOND
+        told = f"{np.median(apart_ms):.0f} ms in the median, at most {apart_ms.max():.0f} ms"
+        facts.append(("ticks apart", told))
+    if material.summary and material.summary.wall_s and loop is None:
+        facts.append(("speed of the simulation", f"{material.summary.realtime_factor:.1f} x real time"))
+    return facts
+
+
+def _recording(material: Material) -> Facts:
+    if not material.recorded:
+        return [("recording", "none")]
+    return [("gaps in the recording", gaps_told(material.gaps))]
+
+
+def gaps_told(gaps: Iterable[Gap]) -> str:
+    """When pictures are missing, and how many."""
+    told = [f"{clock(gap.from_s)} to {clock(gap.to_s)} ({counted(gap.frames, 'picture')})" for gap in gaps]
+    return "; ".join(told) or "none"
+
+
+def _known(values: Floats) -> Floats:
+    return values[np.isfinite(values)]

@@ -1,0 +1,22 @@
+"""Writing a run's report.html from what lies in its directory."""
+
+from contextlib import nullcontext
+from pathlib import Path
+
+from fieldnav.journal.directory import RunDirectory
+from fieldnav.journal.files import write_atomically
+from fieldnav.report.composing import compose
+from fieldnav.report.material import Problems, gather, open_recording
+from fieldnav.report.page import render
+from fieldnav.report.pictures import Pictures
+
+
+def write_report(directory: RunDirectory, out: Path | None = None) -> Path:
+    """Write report.html, or `out`, whatever can be read of the run; returns its path. Raises OutputError."""
+    problems = Problems()
+    with open_recording(directory, problems) or nullcontext() as recording:
+        material = gather(directory, recording, problems)
+        page = compose(material, Pictures(recording))
+    path = out or directory.report
+    write_atomically(path, render(page).encode(errors="replace"))
+    return path
