@@ -10,7 +10,7 @@ from fieldnav.cli.picture_limit import limit_pictures
 from fieldnav.errors import SettingsError
 from fieldnav.messages import Direction, Side, Twist
 from fieldnav.settings.loading import check_fit, load_crop, load_robot
-from fieldnav.settings.setting import changed
+from fieldnav.settings.setting import all_changed
 
 if TYPE_CHECKING:
     from fieldnav.replay.foreign.order import Order
@@ -130,14 +130,7 @@ def _settings(asked: Foreign) -> "tuple[CropProfile, Robot]":
     """Crop and robot as the options have them. Raises SettingsError."""
     if asked.crop is None:
         raise SettingsError("--crop: is not given; a recording of others wants a name or the path of a file")
-    crop, robot = load_crop(asked.crop), load_robot(asked.robot or USUAL_ROBOT)
-    for change in asked.changes:
-        key, equals, value = change.partition("=")
-        if not equals:
-            raise SettingsError(f"--set {change}: has no '='; allowed is KEY=VALUE, say rows.per_lane=2")
-        if key.startswith("robot."):
-            robot = changed(robot, key.removeprefix("robot."), value)
-        else:
-            crop = changed(crop, key.removeprefix("crop."), value)
+    loaded = load_crop(asked.crop), load_robot(asked.robot or USUAL_ROBOT)
+    crop, robot = all_changed(*loaded, asked.changes)
     check_fit(crop, robot)
     return crop, robot

@@ -60,11 +60,18 @@ class ReplayedMission:
             self._do(taken.round)
         return self._lines.taken()
 
-    def bring(self, now_s: float, lines: Sequence[Line]) -> None:
-        """Go through the transitions that the run has made and this mission has not."""
-        for line in lines:
-            change = Change(self.mission.course.leaf, Event(line.event), LEAF_NAMED[line.target])
-            self.mission.course.brought(now_s, change)
+    def bring(self, now_s: float, lines: Sequence[Line]) -> bool:
+        """Go through the transitions that the run has made and this mission has not; whether it can.
+
+        A state may need what an earlier one has seen, such as the lane.
+        """
+        try:
+            for line in lines:
+                change = Change(self.mission.course.leaf, Event(line.event), LEAF_NAMED[line.target])
+                self.mission.course.brought(now_s, change)
+        except (AssertionError, FieldnavError):
+            return False
+        return True
 
     def obey(self, obeyed: bool) -> None:
         """Whether the recorded wheels do what this mission tells them; a dry run's never did."""

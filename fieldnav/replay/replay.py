@@ -6,9 +6,11 @@ from contextlib import closing
 import cv2
 
 from fieldnav.errors import FieldnavError
+from fieldnav.faults import FaultKind
 from fieldnav.journal.directory import RunDirectory
 from fieldnav.journal.entry import Line
 from fieldnav.journal.journal import read
+from fieldnav.journal.moment import clock
 from fieldnav.journal.resolved import Settings
 from fieldnav.mission.chronicle import OBSERVER_LOST
 from fieldnav.recording.recording import Recording
@@ -58,7 +60,8 @@ class _Replay:
         self._watch = CommandWatch(recording.ticks())
         self._mission = ReplayedMission(now, lines[0].utc, [self._watch])
         self._rounds, self._lacking = 0, 0
-        self._begun = False
+        self._begun = self._brought = False
+        self._astray = ""
 
     def run(self, tell: Tell | None) -> Replayed:
         now_s = 0.0
@@ -70,6 +73,8 @@ class _Replay:
                 )
             self._begun, now_s = True, each.round.now_s
             self._round(each)
+            if self._astray:
+                break
             if tell is not None:
                 tell(now_s, self._recording.end_s)
         self._following.end()
@@ -85,13 +90,22 @@ class _Replay:
         self._mission.obey(self._watch.obeyed(now_s))
         now = self._mission.again(each)
         then = [self._lines[seq] for seq in each.round.lines if seq in self._lines]
+        if self._brought and any(_broke(line) for line in now):
+            self._lose(now_s)
+            return
         self._watch.sent(now_s, self._mission.bus.alike)
         self._compare_notes(_notes(then), _notes(now))
         self._following.take(_changes(then), _changes(now))
         if behind := self._following.behind:
             lacked = {line.event: self._watch.lacked(line.event) for line in behind}
-            self._mission.bring(now_s, behind)
+            self._brought = True
+            if not self._mission.bring(now_s, behind):
+                self._lose(now_s)
             self._following.brought(lacked)
+
+    def _lose(self, now_s: float) -> None:
+        """It was brought to where a state needs what an earlier one has seen, such as the lane."""
+        self._astray = f"from {clock(now_s)} on the replay knows too little to be where the run was"
 
     def _compare_notes(self, then: list[Line], now: list[Line]) -> None:
         """Notes change no state: they are the same in the same round, or one of them is alone."""
@@ -106,11 +120,11 @@ class _Replay:
         found = [*self._following.differences]
         if not self._changed:  # other settings are other thresholds, and so judged otherwise everywhere
             found += [*self._following.judged, *self._notes]
-        incomplete = []
+        incomplete = [self._astray] if self._astray else []
         if self._lacking:
             incomplete.append(f"{self._lacking} pictures are not in the recording")
         last = max(self._lines.values(), key=lambda line: line.seq)
-        if last.stamp_s > end_s + ROUNDING_S:
+        if last.stamp_s > end_s + ROUNDING_S and not self._astray:
             incomplete.append(f"the recording ends at {end_s:.2f} s, the journal at {last.stamp_s:.2f} s")
         return Replayed(
             run=self._name,
@@ -126,6 +140,11 @@ class _Replay:
 
 ROUNDING_S = 1e-5
 """The journal has six decimals."""
+
+
+def _broke(line: Line) -> bool:
+    """Whether an error in the program broke the mission off."""
+    return line.event == Event.LATCH.value and line.reason.startswith(FaultKind.PROGRAM.value)
 
 
 def _changes(lines: Sequence[Line]) -> list[Line]:

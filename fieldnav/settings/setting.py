@@ -1,16 +1,33 @@
 """One value of a settings file, named by its path: row_end.longest_gap_m."""
 
+from collections.abc import Iterable
 from typing import Any, TypeVar
 
 import yaml
 
 from fieldnav.errors import SettingsError
+from fieldnav.settings.crop import CropProfile
 from fieldnav.settings.loading import checked
 from fieldnav.settings.model import Settings
 from fieldnav.settings.one_line import one_line
 from fieldnav.settings.problems import shortened
+from fieldnav.settings.robot import Robot
 
 Model = TypeVar("Model", bound=Settings)
+
+
+def all_changed(crop: CropProfile, robot: Robot, changes: Iterable[str]) -> tuple[CropProfile, Robot]:
+    """Crop and robot with each KEY=VALUE changed; the robot's keys begin with robot. Raises SettingsError."""
+    for change in changes:
+        key, equals, value = change.partition("=")
+        if not equals:
+            said = f"--set {shortened(one_line(change))}: has no '='"
+            raise SettingsError(f"{said}; allowed is KEY=VALUE, say speeds.follow_mps=0.4")
+        if key.startswith("robot."):
+            robot = changed(robot, key.removeprefix("robot."), value)
+        else:
+            crop = changed(crop, key.removeprefix("crop."), value)
+    return crop, robot
 
 
 def changed(settings: Model, key: str, text: str) -> Model:

@@ -1,0 +1,98 @@
+"""`fieldnav replay` as a user meets it."""
+
+import json
+import shutil
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+from fieldnav.cli.app import run
+from fieldnav.evaluation.row_end_cases import smaller
+from fieldnav.journal.directory import RunDirectory
+from fieldnav.messages import Side
+from fieldnav.mission.simulated import Run, simulate
+from fieldnav.settings.loading import load_crop, load_field, load_robot, revised
+
+
+@pytest.fixture(scope="module")
+def recorded(tmp_path_factory: pytest.TempPathFactory) -> RunDirectory:
+    """One short lane on small pictures."""
+    field = revised(load_field("demo"), {"lanes": 1, "length_m": 4})
+    robot = smaller(smaller(load_robot("bonnbot")))
+    parent = tmp_path_factory.mktemp("runs")
+    return simulate(
+        Run(field, load_crop(field.crop), robot, 1, Side.RIGHT, parent, sketch=True, record=True)
+    ).directory
+
+
+def test_an_unchanged_run_is_the_same_bit_for_bit(
+    recorded: RunDirectory, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert run(["replay", "--runs", str(recorded.path.parent)]) == 0
+    assert "no difference, bit for bit" in capsys.readouterr().out
+
+
+def test_what_if_lists_what_moved_and_fails(
+    recorded: RunDirectory, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert run(["replay", str(recorded.path), "--set", "switching.headland_m=0.25"]) == 1
+    told = capsys.readouterr().out
+    assert "last lane left" in told
+    assert "earlier" in told
+    assert "commands differ in" in told
+
+
+def test_programs_get_one_document(recorded: RunDirectory, capsys: pytest.CaptureFixture[str]) -> None:
+    assert run(["replay", str(recorded.path), "--json", "--crop", "sugar-beet"]) == 0
+    document = json.loads(capsys.readouterr().out)
+    assert document["differences"] == []
+    assert document["commands"]["rounds"] == 0
+
+
+def test_settings_that_make_the_lane_invisible_end_the_comparison_in_words(
+    recorded: RunDirectory, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert run(["replay", str(recorded.path), "--set", "vegetation.floor=0.9"]) == 1
+    told = capsys.readouterr().out
+    assert "rows found" in told
+    assert "the replay knows too little to be where the run was" in told
+    assert "latch" not in told
+
+
+@pytest.mark.parametrize(
+    ("change", "said"),
+    [
+        ("switching.headland=1", "--set switching.headland: is no key; allowed is one of headland_m"),
+        ("headland_m", "--set headland_m: has no '='; allowed is KEY=VALUE"),
+        ("switching.headland_m=9", "headland_m: 9 is not allowed; allowed is a number from 0.1 to 2"),
+        ("robot.limits.speed_mps=fast", "limits.speed_mps: 'fast' is not allowed"),
+        ("switching.headland_m=[", "'[' is no value"),
+    ],
+)
+def test_a_wrong_change_is_refused_in_one_line(
+    change: str, said: str, recorded: RunDirectory, error: Callable[[], str]
+) -> None:
+    assert run(["replay", str(recorded.path), "--set", change]) == 2
+    assert said in error()
+
+
+def test_options_of_foreign_recordings_are_refused_for_a_run(
+    recorded: RunDirectory, error: Callable[[], str]
+) -> None:
+    assert run(["replay", str(recorded.path), "--speed", "0.5"]) == 2
+    assert "--speed" in error()
+
+
+def test_a_run_without_recording_or_settings_is_refused_in_one_line(
+    recorded: RunDirectory, tmp_path: Path, error: Callable[[], str]
+) -> None:
+    copy = RunDirectory(shutil.copytree(recorded.path, tmp_path / "copy"))
+    copy.recording.unlink()
+
+    assert run(["replay", str(copy.path)]) == 2
+    assert "recording.mcap: is not there" in error()
+
+    copy.settings.unlink()
+    assert run(["replay", str(copy.path)]) == 2
+    assert "settings.yaml" in error()
