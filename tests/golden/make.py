@@ -28,6 +28,7 @@ RUNS: Mapping[str, tuple[str, Mapping[str, Any]]] = {
     "two-lanes": ("demo", {"lanes": 2, "length_m": 4}),
     "two-broad-rows": ("demo", {"lanes": 2, "length_m": 4, "crop": "potato"}),
     "gap": ("sim-large-gaps", {"lanes": 1, "length_m": 8}),
+    "refused": ("sim-dense-weed", {"lanes": 2, "length_m": 4, "seed": 2}),
 }
 """By name: the field, and what is changed in it."""
 
