@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 from math import isnan, nan
 
-from fieldnav.messages import Evidence, Image
+from fieldnav.messages import Bound, Evidence, Image
 from fieldnav.perception.canopy import canopy_plane
 from fieldnav.perception.lane import LaneFit
 from fieldnav.perception.perceive import find
@@ -12,6 +12,7 @@ from fieldnav.perception.sidestep.passing_rows import Crossing, look_at_m
 from fieldnav.perception.sidestep.row_words import LEAST_SHOWN
 from fieldnav.pinhole import Pinhole
 from fieldnav.settings.crop import CropProfile
+from states.judgement import holds
 
 OFF_PLACE = 0.3
 """Of the row spacing: a fresh look finds the lane this near to where the passing rows have it."""
@@ -21,9 +22,13 @@ OFF_SPACING = 0.2
 
 @dataclass(frozen=True, slots=True)
 class Verdict:
-    """Whether the lane is as expected, and what was seen against what was expected."""
+    """Whether the lane is as expected, and what was seen against what was expected.
+
+    objection: what speaks against it most, in words; empty where it fits.
+    """
 
     fits: bool
+    objection: str
     evidence: tuple[Evidence, ...]
 
 
@@ -47,11 +52,23 @@ def verdict(
         Evidence("frame shows the lane as expected", float(fits), 1),
         Evidence("rows that a fresh look shows", fit.rows_seen if fit else 0, wanted, "rows"),
         Evidence("rows that show plants where they should", shown, wanted, "rows"),
-        Evidence("its lane lies off by", off_m, most_m, "m"),
-        Evidence("its row spacing is off by the share", uneven, OFF_SPACING),
-        Evidence("rows where the wheels will go", beside, 0, "rows"),
+        Evidence("its lane lies off by", off_m, most_m, "m", bound=Bound.AT_MOST),
+        Evidence("its row spacing is off by the share", uneven, OFF_SPACING, bound=Bound.AT_MOST),
+        Evidence("rows where the wheels will go", beside, 0, "rows", bound=Bound.AT_MOST),
     )
-    return Verdict(fits, evidence)
+    return Verdict(fits, "" if fits else _objection(evidence), evidence)
+
+
+def _objection(evidence: tuple[Evidence, ...]) -> str:
+    """The gravest of what does not hold: what would be run over, where the lane lies, then what lacks."""
+    _, _, shown, off, uneven, beside = evidence
+    if not holds(beside):
+        return f"{beside.value:.0f} rows stand where the wheels will go"
+    known = (each for each in (off, uneven) if not isnan(each.value))  # nothing speaks against the unknown
+    wrong = next((each for each in known if not holds(each)), None)
+    if wrong is None:
+        return f"{shown.value:.0f} of {shown.threshold:.0f} rows show plants where they should"
+    return f"{wrong.name} {wrong.value:.2f} {wrong.unit}".strip() + f", at most {wrong.threshold:.2f}"
 
 
 def _uneven(fit: LaneFit | None, crop: CropProfile) -> float:

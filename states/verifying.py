@@ -81,7 +81,8 @@ class Verifying:
         if event is not Event.LANE_REFUSED:
             return Step(sideways(self._task, 0.0), event, evidence, sight)
         unsure = there is not None and there.probability < LIKELY
-        switch.refused = UNSURE if judged.fits and unsure else UNLIKE
+        few = f"{self._fitting} frames fit, {FRAMES_FITTING} are wanted"
+        switch.refused = UNSURE if judged.fits and unsure else f"{UNLIKE}: {judged.objection or few}"
         return Step(sideways(self._task, 0.0), event, evidence, sight, switch.refused)
 
     def _looks_evidence(self, at: Entry | None) -> tuple[Evidence, ...]:

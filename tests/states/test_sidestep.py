@@ -200,7 +200,10 @@ def test_a_lane_that_does_not_look_like_one_is_refused_and_looked_for_again_from
     refused = stepping.obey(Verifying(task, direction, lane), MOST_FRAMES, bare)
     back = stepping.obey(Returning(task, direction, lane), MOST_FRAMES)
 
-    assert refused.event is Event.LANE_REFUSED and "does not look like" in refused.reason
+    assert refused.event is Event.LANE_REFUSED
+    assert refused.reason.endswith(
+        "does not look like the next lane: 0 of 3 rows show plants where they should"
+    )
     assert judged(refused, "rows that a fresh look shows") == 0
     assert back.event is Event.OLD_LANE_SEEN
     assert 0 < stepping.way_m < 1.0
