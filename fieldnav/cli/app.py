@@ -16,7 +16,7 @@ from fieldnav.cli.count import count
 from fieldnav.cli.ctl import ctl
 from fieldnav.cli.detect import detect
 from fieldnav.cli.diagram import diagram
-from fieldnav.cli.log import log
+from fieldnav.cli.log.app import log
 from fieldnav.cli.profiles import profiles
 from fieldnav.cli.replay import replay
 from fieldnav.cli.run import run as drive

@@ -6,7 +6,7 @@ from typing import Annotated
 
 import typer
 
-from fieldnav.cli.log_options import RUN_HELP, RUNS, RunsOption
+from fieldnav.cli.log.options import RUN_HELP, RUNS, RunsOption
 from fieldnav.errors import OutputError, SettingsError
 from fieldnav.journal.directory import find_run
 

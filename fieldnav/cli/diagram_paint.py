@@ -1,9 +1,9 @@
 """A run's journal as the figures that are painted into the state machine's diagram."""
 
+from fieldnav.inquiry.outcome import Overview, overview
+from fieldnav.inquiry.spent import Account, account
 from fieldnav.journal.directory import RunDirectory
 from fieldnav.journal.journal import read
-from fieldnav.journal.outcome import Overview, overview
-from fieldnav.journal.spent import Account, account
 from states.drawing.paint import Made, Paint, Visit
 from states.names import Event, text
 from states.table import LEAVES

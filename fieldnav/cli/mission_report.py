@@ -3,8 +3,8 @@
 from rich.table import Table
 
 from fieldnav.cli.console import print_error, table
+from fieldnav.inquiry.outcome import overview
 from fieldnav.journal.directory import RunDirectory
-from fieldnav.journal.outcome import overview
 from fieldnav.journal.summary import Summary, Truth
 
 Rows = list[tuple[str, str]]

@@ -6,7 +6,7 @@ from typing import Annotated
 import typer
 
 from fieldnav.cli.console import out, print_json
-from fieldnav.cli.log_options import RunArgument, RunsOption
+from fieldnav.cli.log.options import RunArgument, RunsOption
 from fieldnav.cli.replay_foreign import Foreign, is_foreign, refuse_for_run, replay_foreign
 from fieldnav.cli.replay_foreign_options import (
     AgainOption,

@@ -7,9 +7,9 @@ from rich.console import Group, RenderableType
 from rich.text import Text
 
 from fieldnav.cli.console import PLAIN_WIDTH, out
-from fieldnav.cli.log_tables import transitions_table
+from fieldnav.cli.log.tables import transitions_table
+from fieldnav.inquiry.moment import clock
 from fieldnav.journal.journal import read
-from fieldnav.journal.moment import clock
 from fieldnav.journal.summary import to_json
 from fieldnav.replay.foreign.ground_speed import as_assumed
 

@@ -10,7 +10,7 @@ from rich.console import Group, RenderableType
 from rich.text import Text
 
 from fieldnav.cli.console import table
-from fieldnav.journal.moment import clock
+from fieldnav.inquiry.moment import clock
 
 if TYPE_CHECKING:
     from fieldnav.replay.difference import Commands, Difference, Replayed

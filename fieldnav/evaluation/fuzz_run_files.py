@@ -6,11 +6,11 @@ from datetime import UTC, datetime
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
+from fieldnav.inquiry.outcome import overview
 from fieldnav.journal.directory import RunDirectory
 from fieldnav.journal.entry import Entry
 from fieldnav.journal.journal import Journal, read
 from fieldnav.journal.ledger import Booking, Ledger, last_booking
-from fieldnav.journal.outcome import overview
 from fieldnav.journal.resolved import read_settings, write_settings
 from fieldnav.journal.summary import Lanes, Summary, Switches, read_summary, to_json
 from fieldnav.messages import Evidence, Twist

@@ -13,24 +13,10 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
 from fieldnav.errors import OutputError
+from fieldnav.journal.phases import INK, OTHER, PHASE_COLOURS, phase_of
 from fieldnav.messages import Floats
 
-OTHER = "Other"
-"""Standing still before and after the lanes: no stretch of the path, and so not in the legend."""
-
-PHASE_COLOURS = {
-    "Follow": "#1f6fb4",
-    "Acquiring": "#6cc5e8",
-    "Coasting": "#8a5fc4",
-    "Exit": "#e69200",
-    "Sidestep": "#d4357f",
-    "Paused": "#8c8c8c",
-    "Fault": "#d01c1c",
-    OTHER: "#404040",
-}
-"""A colour a phase; a state takes that of the innermost of its names that is listed here."""
-
-SOIL, ROW, LANE, INK = "#f6f2ea", "#a9cf9b", "#7fae72", "#2b2b2b"
+SOIL, ROW, LANE = "#f6f2ea", "#a9cf9b", "#7fae72"
 LONGEST_SHAPE = 9
 """Width over height of the ground past which a map in true proportion is a thread; it is stretched then."""
 
@@ -78,12 +64,6 @@ def draw_map(path: Path, run: RunMap) -> None:
         figure.savefig(path, dpi=DOTS_PER_INCH)
     except OSError as error:
         raise OutputError(f"{path}: cannot be written: {error.strerror}") from error
-
-
-def phase_of(state: str) -> str:
-    """The phase that a state's name, its parents' names before it, belongs to."""
-    names = state.replace(".", "_").split("_")
-    return next((name for name in reversed(names) if name in PHASE_COLOURS), OTHER)
 
 
 def _extent(run: RunMap) -> tuple[Floats, Floats]:

@@ -2,7 +2,7 @@
 
 from collections.abc import Iterator
 
-from fieldnav.journal.chances import chances
+from fieldnav.inquiry.chances import chances
 from fieldnav.journal.entry import Judged, judged_as_json
 from fieldnav.messages import Evidence
 from fieldnav.mission.tick import Tick

@@ -7,10 +7,10 @@ import cv2
 
 from fieldnav.errors import FieldnavError
 from fieldnav.faults import FaultKind
+from fieldnav.inquiry.moment import clock
 from fieldnav.journal.directory import RunDirectory
 from fieldnav.journal.entry import Line
 from fieldnav.journal.journal import read
-from fieldnav.journal.moment import clock
 from fieldnav.journal.resolved import Settings
 from fieldnav.mission.chronicle import OBSERVER_LOST
 from fieldnav.recording.recording import Recording

@@ -5,8 +5,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from fieldnav.journal.map import PHASE_COLOURS
-from fieldnav.journal.moment import clock
+from fieldnav.inquiry.moment import clock
+from fieldnav.journal.phases import PHASE_COLOURS
 from fieldnav.report.curves import Curve, Panel, panel_range
 from fieldnav.report.scale import clock_steps, minutes, round_steps, thinned
 from fieldnav.report.shapes import Block, Chart, Drawn, DrawnPanel, Tick

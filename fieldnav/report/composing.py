@@ -4,9 +4,9 @@ from collections.abc import Sequence
 from datetime import UTC
 
 from fieldnav.errors import FieldnavError
-from fieldnav.journal.outcome import Outcome, overview
+from fieldnav.inquiry.outcome import Outcome, overview
+from fieldnav.inquiry.stops import stands
 from fieldnav.journal.resolved import read_settings
-from fieldnav.journal.stops import stands
 from fieldnav.report.chart import chart_of
 from fieldnav.report.curves import driving_panels, health_panels
 from fieldnav.report.drawn_map import map_of

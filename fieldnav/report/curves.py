@@ -7,7 +7,7 @@ from math import hypot
 import numpy as np
 
 from fieldnav.journal.entry import Line
-from fieldnav.journal.map import PHASE_COLOURS
+from fieldnav.journal.phases import PHASE_COLOURS
 from fieldnav.messages import Floats
 from fieldnav.recording.records import Stepped
 from fieldnav.report.material import Material

@@ -3,7 +3,7 @@
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
-from fieldnav.journal.chances import deciding
+from fieldnav.inquiry.chances import deciding
 from fieldnav.journal.entry import Judged
 from fieldnav.report.words import known
 

@@ -3,8 +3,8 @@
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from fieldnav.journal.moment import clock
-from fieldnav.journal.outcome import Outcome, Overview
+from fieldnav.inquiry.moment import clock
+from fieldnav.inquiry.outcome import Outcome, Overview
 from fieldnav.journal.summary import Lanes, Truth
 from fieldnav.report.material import Material
 from fieldnav.report.spans import distance_m

@@ -4,7 +4,7 @@ from collections.abc import Iterable
 
 import numpy as np
 
-from fieldnav.journal.moment import clock
+from fieldnav.inquiry.moment import clock
 from fieldnav.messages import Floats
 from fieldnav.recording.records import Gap
 from fieldnav.report.material import Material

@@ -8,10 +8,10 @@ from math import nan
 
 import numpy as np
 
-from fieldnav.journal.cause import HELD
+from fieldnav.inquiry.cause import HELD
+from fieldnav.inquiry.stops import is_stop
 from fieldnav.journal.entry import Line
 from fieldnav.journal.ledger import Booking
-from fieldnav.journal.stops import is_stop
 from fieldnav.messages import Direction, Floats
 from fieldnav.report.material import Material
 from fieldnav.report.naming import LEFT, LOST, direction_of, in_phase

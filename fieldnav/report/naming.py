@@ -1,6 +1,6 @@
 """What the names of states tell, as they stand in files: Forward.Follow.Tracking."""
 
-from fieldnav.journal.stops import top
+from fieldnav.inquiry.stops import top
 from fieldnav.messages import Direction
 from states.names import Event, Fault, Follow, Phase, Top
 

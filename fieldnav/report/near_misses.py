@@ -3,7 +3,7 @@
 from collections.abc import Iterable
 from dataclasses import dataclass
 
-from fieldnav.journal.chances import Chance, chances
+from fieldnav.inquiry.chances import Chance, chances
 from fieldnav.recording.records import Stepped
 
 NEAR = 0.2

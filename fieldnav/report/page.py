@@ -10,12 +10,12 @@ from jinja2 import Environment, FunctionLoader, StrictUndefined
 from markupsafe import Markup, escape
 
 from fieldnav import __version__
-from fieldnav.journal.chances import deciding
+from fieldnav.inquiry.chances import deciding
+from fieldnav.inquiry.moment import clock
+from fieldnav.inquiry.outcome import Outcome
+from fieldnav.inquiry.words import judgement
 from fieldnav.journal.entry import Line
-from fieldnav.journal.map import INK, PHASE_COLOURS
-from fieldnav.journal.moment import clock
-from fieldnav.journal.outcome import Outcome
-from fieldnav.journal.words import judgement
+from fieldnav.journal.phases import INK, PHASE_COLOURS
 from fieldnav.report.drawn_map import ReportMap
 from fieldnav.report.embedded import Shown
 from fieldnav.report.evidence_table import Row

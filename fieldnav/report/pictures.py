@@ -5,8 +5,8 @@ from dataclasses import dataclass
 from math import inf
 
 from fieldnav.errors import FieldnavError
+from fieldnav.inquiry.moment import clock
 from fieldnav.journal.entry import Line
-from fieldnav.journal.moment import clock
 from fieldnav.journal.overlay import OverlayView, draw_overlay
 from fieldnav.messages import STANDSTILL, RowLine, Twist
 from fieldnav.recording.picture import Picture

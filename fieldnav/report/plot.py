@@ -12,9 +12,9 @@ from matplotlib.patches import Patch
 from matplotlib.ticker import FuncFormatter
 
 from fieldnav.errors import FieldnavError, OutputError
+from fieldnav.inquiry.outcome import overview
 from fieldnav.journal.directory import RunDirectory
-from fieldnav.journal.map import INK, PHASE_COLOURS
-from fieldnav.journal.outcome import overview
+from fieldnav.journal.phases import INK, PHASE_COLOURS
 from fieldnav.report.composing import stretches
 from fieldnav.report.curves import Panel, driving_panels, panel_range
 from fieldnav.report.material import Material, Problems, gather, open_recording

@@ -4,9 +4,9 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
 
+from fieldnav.inquiry.stops import is_note
 from fieldnav.journal.entry import Line
-from fieldnav.journal.map import PHASE_COLOURS, phase_of
-from fieldnav.journal.stops import is_note
+from fieldnav.journal.phases import PHASE_COLOURS, phase_of
 from fieldnav.report.naming import CENTRED
 
 

@@ -5,9 +5,9 @@ from dataclasses import dataclass
 from enum import Enum
 
 from fieldnav.faults import FaultKind
-from fieldnav.journal.cause import HELD, KILLED, Cause, cause_of, reason_of
+from fieldnav.inquiry.cause import HELD, KILLED, Cause, cause_of, reason_of
+from fieldnav.inquiry.stops import is_note, is_stop
 from fieldnav.journal.entry import Line
-from fieldnav.journal.stops import is_note, is_stop
 from fieldnav.report.naming import is_fault, is_latched
 from fieldnav.report.spans import Span, lane_after
 from fieldnav.report.words import sentence

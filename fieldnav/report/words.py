@@ -3,7 +3,7 @@
 from collections.abc import Iterable
 from math import isfinite
 
-from fieldnav.journal.words import figure
+from fieldnav.inquiry.words import figure
 
 NOTHING = "\N{EN DASH}"
 """What a table has where there is nothing."""

@@ -8,8 +8,9 @@ import pytest
 from matplotlib.colors import to_rgb
 
 from fieldnav.errors import OutputError
-from fieldnav.journal.map import PHASE_COLOURS, RunMap, draw_map, phase_of
+from fieldnav.journal.map import RunMap, draw_map
 from fieldnav.journal.overlay import FEATURE, HELD_ROW, ROW, OverlayView, OverlayWriter, draw_overlay
+from fieldnav.journal.phases import PHASE_COLOURS, phase_of
 from fieldnav.messages import Image, RowLine
 
 SOIL = np.full((180, 320, 3), (72, 96, 122), np.uint8)

@@ -7,9 +7,9 @@ from typing import Any
 import pytest
 
 from fieldnav.cli.replay_foreign import Foreign, replay_foreign
+from fieldnav.inquiry.outcome import Outcome, overview
 from fieldnav.journal.directory import RunDirectory
 from fieldnav.journal.journal import read
-from fieldnav.journal.outcome import Outcome, overview
 from fieldnav.journal.resolved import read_settings
 from fieldnav.recording.recording import Recording
 

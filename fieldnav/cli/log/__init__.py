@@ -1,0 +1,1 @@
+"""`fieldnav log`: a file a command, and what they share."""

@@ -1,0 +1,128 @@
+"""The tables of `fieldnav log`."""
+
+from collections.abc import Sequence
+
+from rich.table import Table
+from rich.text import Text
+
+from fieldnav.cli.console import table
+from fieldnav.inquiry.chances import deciding
+from fieldnav.inquiry.moment import clock
+from fieldnav.inquiry.outcome import Outcome, Overview
+from fieldnav.inquiry.words import decisive, judgement
+from fieldnav.journal.entry import Line
+
+COLOURS = {
+    Outcome.FINISHED: "green",
+    Outcome.STOPPED: "red",
+    Outcome.BROKEN_OFF: "yellow",
+    Outcome.RUNNING: "cyan",
+    Outcome.UNREADABLE: "yellow",
+}
+WIDE = 110
+"""Columns from which on a transition's states stand side by side."""
+
+
+def runs_table(title: str, overviews: Sequence[Overview], width: int = WIDE) -> Table:
+    """One line a run; where there is little room the ending stands beneath the name."""
+    if width < WIDE:
+        columns: tuple[str, ...] = ("run", "outcome", "lanes", "way", "time")
+        rows = [_short(each) for each in overviews]
+    else:
+        columns = ("run", "outcome", "lanes", "switches", "distance", "time", "stops", "ended in")
+        rows = [
+            (each.run, _outcome(each), *_figures(each), _stops(each), _ending(each)) for each in overviews
+        ]
+    return table(
+        f"runs in {title}", columns, rows, right=("lanes", "switches", "distance", "way", "time", "stops")
+    )
+
+
+def _short(each: Overview) -> tuple[str | Text, ...]:
+    lanes, _, distance, time = _figures(each)
+    return (
+        Text("\n").join([Text(each.run, style="bold"), _ending(each)]),
+        _outcome(each),
+        lanes,
+        distance,
+        time,
+    )
+
+
+def heading(each: Overview) -> Text:
+    """How one run ended, above its transitions."""
+    lanes, switches, distance, time = _figures(each)
+    figures = (
+        f"lanes {lanes}, switches {switches}, {distance} in {time}" if each.summary else f"{time} recorded"
+    )
+    return Text.assemble((each.run, "bold"), "  ", _outcome(each), f"  {figures}", "\n", _ending(each), "\n")
+
+
+def transitions_table(lines: Sequence[Line], width: int = WIDE) -> Table:
+    """One line a transition: its reason, then what was judged; fewer columns where there is little room."""
+    if width < WIDE:
+        return _narrow(lines)
+    columns = ("seq", "time", "from", "to", "event", "lane", "rows", "because")
+    rows = [
+        (
+            str(line.seq),
+            clock(line.stamp_s),
+            line.source,
+            line.target,
+            line.event,
+            "" if line.lane is None else str(line.lane),
+            "" if line.rows is None else str(line.rows),
+            _because(line),
+        )
+        for line in lines
+    ]
+    return table("", columns, rows, right=("seq", "time", "lane", "rows"))
+
+
+def _narrow(lines: Sequence[Line]) -> Table:
+    """From where to where above the reasons."""
+    rows = [
+        (
+            str(line.seq),
+            clock(line.stamp_s),
+            "" if line.lane is None else str(line.lane),
+            Text("\n").join([Text(f"{line.event}: {line.source} -> {line.target}"), _because(line)]),
+        )
+        for line in lines
+    ]
+    return table(
+        "", ("seq", "time", "lane", "event, and because of what"), rows, right=("seq", "time", "lane")
+    )
+
+
+def _because(line: Line) -> Text:
+    """The reason, which stands out where there is one, above the deciding quantities."""
+    reason = [Text(line.reason, style="bold")] if line.reason else []
+    judged = deciding(line.event, line.evidence) or decisive(line.evidence)
+    return Text("\n").join([*reason, *(Text(judgement(each)) for each in judged)])
+
+
+def _figures(each: Overview) -> tuple[str, str, str, str]:
+    if each.summary is None:
+        return "", "", "", clock(each.seconds)
+    lanes, switches = each.summary.lanes, each.summary.switches
+    return (
+        f"{lanes.done}/{lanes.total}",
+        f"{switches.succeeded}/{switches.attempted}",
+        f"{each.summary.distance_m:.1f} m",
+        clock(each.summary.duration_s),
+    )
+
+
+def _stops(each: Overview) -> str:
+    return str(each.summary.faults) if each.summary else ""
+
+
+def _outcome(each: Overview) -> Text:
+    return Text(each.outcome.value, style=COLOURS[each.outcome])
+
+
+def _ending(each: Overview) -> Text:
+    """The last state, and why it was entered."""
+    parts = [Text(each.last_state)] if each.last_state else []
+    return Text(": ").join([*parts, Text(each.reason, style="bold")] if each.reason else parts)

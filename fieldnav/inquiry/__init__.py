@@ -1,0 +1,1 @@
+"""What past runs did, and why: journals read in part, filtered, judged, compared and explained."""

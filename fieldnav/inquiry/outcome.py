@@ -1,0 +1,61 @@
+"""How a run ended, as far as its directory tells; also when the power went before it could say."""
+
+from enum import Enum
+
+from pydantic import BaseModel, ConfigDict
+
+from fieldnav.errors import FieldnavError
+from fieldnav.inquiry.lines import JournalLines
+from fieldnav.journal.directory import RunDirectory
+from fieldnav.journal.ledger_lock import being_driven
+from fieldnav.journal.summary import Summary, read_summary
+
+
+class Outcome(Enum):
+    FINISHED = "finished"
+    STOPPED = "stopped"
+    BROKEN_OFF = "broken off"
+    RUNNING = "running"
+    UNREADABLE = "unreadable"
+
+
+class Overview(BaseModel):
+    """One run in a line: how and where it ended, and its figures if they were written."""
+
+    model_config = ConfigDict(frozen=True)
+
+    run: str
+    path: str
+    outcome: Outcome
+    last_state: str = ""
+    reason: str = ""
+    seconds: float = 0.0
+    summary: Summary | None = None
+
+
+def overview(directory: RunDirectory) -> Overview:
+    """A run's overview, of its journal the last line alone; an unreadable run is one of the outcomes."""
+    name, path = directory.path.name, str(directory.path)
+    try:
+        with JournalLines(directory.journal) as lines:
+            last = lines.last
+        summary = read_summary(directory.summary)
+    except FieldnavError as error:
+        return Overview(run=name, path=path, outcome=Outcome.UNREADABLE, reason=str(error))
+    return Overview(
+        run=name,
+        path=path,
+        outcome=_outcome(directory, summary),
+        last_state=last.target if last else "",
+        reason=last.reason if last and not (summary and summary.completed) else "",
+        seconds=last.stamp_s if last else 0.0,
+        summary=summary,
+    )
+
+
+def _outcome(directory: RunDirectory, summary: Summary | None) -> Outcome:
+    if being_driven(directory.ledger):
+        return Outcome.RUNNING
+    if summary is None:
+        return Outcome.BROKEN_OFF
+    return Outcome.FINISHED if summary.completed else Outcome.STOPPED
