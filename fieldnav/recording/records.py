@@ -1,6 +1,7 @@
 """The records of a recording as they are read back. Keys of later versions are passed over."""
 
 from enum import Enum
+from math import hypot
 from typing import Self
 
 import can
@@ -9,7 +10,7 @@ from pydantic import BaseModel, ConfigDict
 from fieldnav.faults import FaultKind
 from fieldnav.journal.entry import Judged
 from fieldnav.journal.ledger import Booking
-from fieldnav.messages import CameraName, Wheel
+from fieldnav.messages import STANDSTILL, CameraName, Twist, Wheel
 
 
 class Record(BaseModel):
@@ -116,7 +117,10 @@ class Module(Record):
 
 
 class Ticked(Record):
-    """How the mission stood after a tick: state, place by dead reckoning, command, wheels."""
+    """How the mission stood after a tick: state, place by dead reckoning, command, wheels.
+
+    vx_mps, vy_mps, yaw_rate_rps: what is wanted; with `hold` the wheels only turn into place for it.
+    """
 
     now_s: float
     state: str
@@ -136,6 +140,16 @@ class Ticked(Record):
     warning: str = ""
     modules: dict[Wheel, Module] = {}
     charge_percent: float | None = None
+
+    @property
+    def told(self) -> Twist:
+        """What the wheels were told to do."""
+        return STANDSTILL if self.hold else Twist(self.vx_mps, self.vy_mps, self.yaw_rate_rps)
+
+    @property
+    def told_mps(self) -> float:
+        """Its speed."""
+        return hypot(self.told.vx_mps, self.told.vy_mps)
 
 
 class Line(Record):

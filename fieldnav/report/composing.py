@@ -4,6 +4,7 @@ from collections.abc import Sequence
 from datetime import UTC
 
 from fieldnav.errors import FieldnavError
+from fieldnav.inquiry.near_misses import NearMiss
 from fieldnav.inquiry.outcome import Outcome, overview
 from fieldnav.inquiry.stops import stands
 from fieldnav.journal.resolved import read_settings
@@ -15,7 +16,6 @@ from fieldnav.report.headline import headline
 from fieldnav.report.health import health_of, truth_of
 from fieldnav.report.lanes import lanes_of
 from fieldnav.report.material import Material
-from fieldnav.report.near_misses import NearMiss
 from fieldnav.report.page import Page, ToldNearMiss, ToldStop
 from fieldnav.report.pictures import Pictures
 from fieldnav.report.settings_list import settings_groups

@@ -5,6 +5,7 @@ from dataclasses import dataclass, field
 from typing import Any, TypeVar
 
 from fieldnav.errors import FieldnavError
+from fieldnav.inquiry.near_misses import NearMiss, NearMisses
 from fieldnav.journal.directory import RunDirectory
 from fieldnav.journal.entry import Line
 from fieldnav.journal.journal import read
@@ -13,7 +14,6 @@ from fieldnav.journal.summary import Summary, read_summary
 from fieldnav.recording.recording import Recording
 from fieldnav.recording.records import Gap, Stepped
 from fieldnav.report.bookings import bookings_of
-from fieldnav.report.near_misses import NearMiss, NearMisses
 from fieldnav.report.sights import SightColumns, Sights
 from fieldnav.report.trail import Trail, trail_of
 from fieldnav.settings.documents import parse_mapping, read_text

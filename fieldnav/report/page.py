@@ -12,6 +12,7 @@ from markupsafe import Markup, escape
 from fieldnav import __version__
 from fieldnav.inquiry.chances import deciding
 from fieldnav.inquiry.moment import clock
+from fieldnav.inquiry.near_misses import NearMiss
 from fieldnav.inquiry.outcome import Outcome
 from fieldnav.inquiry.words import judgement
 from fieldnav.journal.entry import Line
@@ -22,7 +23,6 @@ from fieldnav.report.evidence_table import Row
 from fieldnav.report.headline import Headline
 from fieldnav.report.health import Facts
 from fieldnav.report.lanes import Lane
-from fieldnav.report.near_misses import NearMiss
 from fieldnav.report.shapes import Chart
 from fieldnav.report.stops import Stop
 from fieldnav.report.words import NOTHING, counted, fixed, known, sentence

@@ -1,14 +1,14 @@
 """Finds the recorded frame of a moment, and draws what the robot saw into it."""
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 from math import inf
 
 from fieldnav.errors import FieldnavError
 from fieldnav.inquiry.moment import clock
+from fieldnav.inquiry.seen import seen_in
 from fieldnav.journal.entry import Line
-from fieldnav.journal.overlay import OverlayView, draw_overlay
-from fieldnav.messages import STANDSTILL, RowLine, Twist
+from fieldnav.journal.overlay import draw_overlay
+from fieldnav.messages import STANDSTILL, Twist
 from fieldnav.recording.picture import Picture
 from fieldnav.recording.recording import Recording
 from fieldnav.recording.records import Seen, Stepped
@@ -83,7 +83,7 @@ class Pictures:
         """What the wheels were told last before a time."""
         ticks = self._recording.ticks(stamp_s - JUST_BEFORE_S, stamp_s - AT_ONCE_S) if self._recording else ()
         last = next(reversed(list(ticks)), None)
-        return Twist(last.vx_mps, last.vy_mps, last.yaw_rate_rps) if last and not last.hold else STANDSTILL
+        return last.told if last else STANDSTILL
 
     def _newest(self, stamp_s: float, step: Stepped | None) -> Picture | None:
         """Of the camera that was gone by, where that is known."""
@@ -95,15 +95,7 @@ class Pictures:
 
 
 def _shown(found: Picture, step: Stepped | None, moment: Moment) -> Shown:
-    view = OverlayView(
-        image=found.image(),
-        state=moment.state,
-        stamp_s=found.seen.stamp_s,
-        camera=found.seen.camera.value,
-        rows=_rows(step),
-        command=moment.command,
-        lane="" if moment.lane is None else f"lane {moment.lane}",
-    )
+    view = seen_in(found, step, moment.state, moment.lane, moment.command)
     caption = f"{found.seen.camera.value} camera at {clock(found.seen.stamp_s)}"
     if step is None:
         caption += ", not judged"
@@ -114,10 +106,6 @@ def _shown(found: Picture, step: Stepped | None, moment: Moment) -> Shown:
 def _ago(ago_s: float) -> str:
     """How much older than the moment a picture is, where that is worth a word."""
     return f", {ago_s:.1f} s before" if 1 <= ago_s < inf else ""
-
-
-def _rows(step: Stepped | None) -> Sequence[RowLine]:
-    return [RowLine(row.x_top_px, row.x_bottom_px, row.confidence) for row in step.rows] if step else []
 
 
 def _seen(line: Line) -> Seen | None:

@@ -2,7 +2,7 @@
 
 from collections.abc import Iterable
 from dataclasses import dataclass
-from math import hypot, nan
+from math import nan
 
 import numpy as np
 from numpy.typing import NDArray
@@ -60,7 +60,7 @@ def _row(tick: Ticked) -> tuple[float, ...]:
         tick.lane,
         tick.x_m,
         tick.y_m,
-        0.0 if tick.hold else hypot(tick.vx_mps, tick.vy_mps),
+        tick.told_mps,
         tick.rows_passed,
         nan if tick.charge_percent is None else tick.charge_percent,
         min((each.battery_v for each in modules if each.battery_v), default=nan),

@@ -7,7 +7,7 @@ from fieldnav.errors import FieldnavError
 from fieldnav.journal.directory import RunDirectory
 
 if TYPE_CHECKING:
-    from fieldnav.report.near_misses import NearMiss
+    from fieldnav.inquiry.near_misses import NearMiss
 
 PIECES = "recording*.mcap"
 MOST = 10
@@ -30,8 +30,8 @@ def near_misses(directory: RunDirectory) -> Missed:
     """The closest of all that was judged."""
     if not is_recorded(directory):
         return Missed(lacking="near misses are not known: this run has no recording")
+    from fieldnav.inquiry.near_misses import NearMisses  # noqa: PLC0415
     from fieldnav.recording.recording import Recording  # noqa: PLC0415 - slow to import, and often not needed
-    from fieldnav.report.near_misses import NearMisses  # noqa: PLC0415
 
     try:
         recording = Recording.open(directory)

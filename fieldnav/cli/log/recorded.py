@@ -2,7 +2,6 @@
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from math import hypot
 
 import numpy as np
 
@@ -64,15 +63,10 @@ def courses(known: Recorded, conditions: tuple[Judged, ...]) -> Iterator[Course]
         yield from _course(known.steps, judged.name, judged.threshold, judged.unit)
     if known.ticks:
         at_s = np.array([tick.now_s for tick in known.ticks])
-        speed_mps = np.array([speed_of(tick) for tick in known.ticks])
+        speed_mps = np.array([tick.told_mps for tick in known.ticks])
         yield Course("speed told to the wheels", at_s, speed_mps, None, "m/s")
     if OFFSET not in [judged.name for judged in conditions]:
         yield from _course(known.steps, OFFSET, None, "m")
-
-
-def speed_of(tick: Ticked) -> float:
-    """What the wheels were told, in m/s: while they only turn into place what is wanted comes afterwards."""
-    return 0.0 if tick.hold else hypot(tick.vx_mps, tick.vy_mps)
 
 
 OFFSET = "offset from the lane"

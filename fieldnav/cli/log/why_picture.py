@@ -9,11 +9,12 @@ import numpy as np
 
 from fieldnav.cli.log.recorded import Recorded
 from fieldnav.errors import OutputError
+from fieldnav.inquiry.seen import seen_in
 from fieldnav.inquiry.words import judgement
 from fieldnav.journal.entry import Judged
 from fieldnav.journal.files import write_atomically
 from fieldnav.journal.overlay import OverlayView, draw_overlay
-from fieldnav.messages import STANDSTILL, Image, RowLine, Twist
+from fieldnav.messages import STANDSTILL, Image
 from fieldnav.recording.picture import Picture
 
 LINE_HEIGHT = 0.035
@@ -38,17 +39,10 @@ def save_picture(path: Path, known: Recorded, headline: str, judged: Sequence[Ju
 
 def _view(known: Recorded, picture: Picture) -> OverlayView:
     """What the mission made of the picture, and what it told the wheels then."""
-    step, seen = known.step, picture.seen
+    step = known.step
     told = next((tick for tick in known.ticks if step is None or tick.now_s >= step.now_s), None)
-    return OverlayView(
-        image=picture.image(),
-        state=step.state if step else "",
-        stamp_s=seen.stamp_s,
-        camera=seen.camera.value,
-        rows=[RowLine(row.x_top_px, row.x_bottom_px, row.confidence) for row in step.rows] if step else (),
-        command=Twist(told.vx_mps, told.vy_mps, told.yaw_rate_rps) if told and not told.hold else STANDSTILL,
-        lane=f"lane {step.lane}" if step else "",
-    )
+    state, lane = (step.state, step.lane) if step else ("", None)
+    return seen_in(picture, step, state, lane, told.told if told else STANDSTILL)
 
 
 def _captioned(image: Image, headline: str, judged: Sequence[str]) -> Image:

@@ -2,10 +2,10 @@
 
 import pytest
 
+from fieldnav.inquiry.near_misses import NearMiss, NearMisses
 from fieldnav.journal.entry import Judged
 from fieldnav.messages import Bound
 from fieldnav.recording.records import Stepped
-from fieldnav.report.near_misses import NearMiss, NearMisses
 
 
 def condition(event: str, value: float, threshold: float = 1.0, alone: bool = False) -> Judged:
