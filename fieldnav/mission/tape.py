@@ -34,6 +34,7 @@ class Tape:
         self._recorder = self._closing = recorder
         self._begun_utc = begun_utc
         self._round: TapedRound | None = None
+        self._number = 0
 
     @contextmanager
     def round(
@@ -49,7 +50,8 @@ class Tape:
         if self._recorder is None:
             yield
             return
-        self._round = TapedRound(call, now_s, by, fault, latched, booking)
+        self._round = TapedRound(call, now_s, self._number, by, fault, latched, booking)
+        self._number += 1
         try:
             yield
         finally:

@@ -33,6 +33,7 @@ class TapedRound:
 
     call: Call
     now_s: float
+    number: int
     by: str = ""
     fault: FaultKind | None = None
     latched: bool = False
@@ -48,6 +49,7 @@ class TapedRound:
         record = Round(
             call=self.call,
             now_s=self.now_s,
+            number=self.number,
             by=self.by,
             fault=self.fault,
             latched=self.latched,

@@ -89,12 +89,14 @@ class Wire(Record):
 class Round(Record):
     """One call of the mission with all that it took in and gave out, in order: enough to do it again.
 
-    by: who asked, or why. fault: of a note. latched: of a break-off. lines: the numbers of the lines in the
-    journal that came of it. booking: the place at which a run that was broken off is taken up.
+    number: counts the rounds of one process. by: who asked, or why. fault: of a note. latched: of a
+    break-off. lines: the numbers of the lines in the journal that came of it. booking: the place at which a
+    run that was broken off is taken up.
     """
 
     call: Call
     now_s: float
+    number: int = 0
     by: str = ""
     fault: FaultKind | None = None
     latched: bool = False

@@ -14,8 +14,8 @@ from fieldnav.journal.journal import read
 from fieldnav.journal.resolved import Settings
 from fieldnav.mission.chronicle import OBSERVER_LOST
 from fieldnav.recording.recording import Recording
-from fieldnav.recording.records import Call
 from fieldnav.replay.commands import CommandWatch
+from fieldnav.replay.completeness import Completeness
 from fieldnav.replay.difference import Difference, Kind, Replayed, judged_otherwise
 from fieldnav.replay.following import LEAF_NAMED, Following
 from fieldnav.replay.mission import ReplayedMission
@@ -59,19 +59,13 @@ class _Replay:
         self._following, self._notes = Following(), list[Difference]()
         self._watch = CommandWatch(recording.ticks())
         self._mission = ReplayedMission(now, lines[0].utc, [self._watch])
-        self._rounds, self._lacking = 0, 0
-        self._begun = self._brought = False
-        self._astray = ""
+        self._rounds, self._complete = 0, Completeness(self._lines)
+        self._brought, self._astray = False, ""
 
     def run(self, tell: Tell | None) -> Replayed:
         now_s = 0.0
         for each in taken(self._recording):
-            if not self._begun and each.round.call not in (Call.START, Call.TAKE_UP):
-                raise FieldnavError(
-                    f"{self._name}: the recording begins at {each.round.now_s:.1f} s, its beginning is gone; "
-                    "allowed is a recording that begins with the run (recording.budget_gb)"
-                )
-            self._begun, now_s = True, each.round.now_s
+            now_s = each.round.now_s
             self._round(each)
             if self._astray:
                 break
@@ -86,7 +80,7 @@ class _Replay:
     def _round(self, each: Taken) -> None:
         now_s = each.round.now_s
         self._rounds += 1
-        self._lacking += len(each.lacking)
+        self._complete.take(each)
         self._mission.obey(self._watch.obeyed(now_s))
         now = self._mission.again(each)
         then = [self._lines[seq] for seq in each.round.lines if seq in self._lines]
@@ -120,12 +114,7 @@ class _Replay:
         found = [*self._following.differences]
         if not self._changed:  # other settings are other thresholds, and so judged otherwise everywhere
             found += [*self._following.judged, *self._notes]
-        incomplete = [self._astray] if self._astray else []
-        if self._lacking:
-            incomplete.append(f"{self._lacking} pictures are not in the recording")
-        last = max(self._lines.values(), key=lambda line: line.seq)
-        if last.stamp_s > end_s + ROUNDING_S and not self._astray:
-            incomplete.append(f"the recording ends at {end_s:.2f} s, the journal at {last.stamp_s:.2f} s")
+        incomplete = [self._astray] if self._astray else self._complete.said()
         return Replayed(
             run=self._name,
             changed=self._changed,
@@ -136,10 +125,6 @@ class _Replay:
             commands=self._watch.commands,
             incomplete=tuple(incomplete),
         )
-
-
-ROUNDING_S = 1e-5
-"""The journal has six decimals."""
 
 
 def _broke(line: Line) -> bool:

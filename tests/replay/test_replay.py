@@ -91,7 +91,7 @@ def test_a_recording_that_broke_off_is_replayed_as_far_as_it_goes(
 
     assert not done.differences
     assert not done.commands.rounds
-    assert "the recording ends at" in done.incomplete[0]
+    assert "lines of the journal, the first at" in done.incomplete[0]
     assert not done.same
 
 

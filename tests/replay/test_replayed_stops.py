@@ -10,6 +10,7 @@ from fieldnav.evaluation.faults_rig import BEGUN, Rig, Setting
 from fieldnav.evaluation.row_end_cases import smaller
 from fieldnav.journal.directory import RunDirectory
 from fieldnav.journal.journal import read
+from fieldnav.journal.ledger import last_booking
 from fieldnav.journal.resolved import read_settings, write_settings
 from fieldnav.mission.tape import taping
 from fieldnav.replay.difference import Replayed
@@ -38,13 +39,17 @@ class Drive:
 
     def __init__(self, runs: Path) -> None:
         self.directory = RunDirectory.create(runs, "demo", datetime(2026, 5, 1, 8, 30, tzinfo=UTC))
+        self.begin()
+        self.rig.operating.start(0.0)
+        self.until(STRUCK_S)
+
+    def begin(self) -> None:
+        """A process drives in the run's directory, from the beginning of the field."""
         field = revised(load_field("demo"), {"lanes": 2, "length_m": 4})
         crop, robot = load_crop(field.crop), smaller(smaller(load_robot("bonnbot")))
         write_settings(self.directory.settings, crop, robot, field, {"lanes": field.lanes, "side": "right"})
         self._taping = taping(self.directory, robot, BEGUN, record=True, waits=True)
         self.rig = Rig(Setting(field, crop, robot), self.directory.path, self._taping.__enter__())
-        self.rig.operating.start(0.0)
-        self.until(STRUCK_S)
 
     def until(self, at_s: float, stands: bool = False) -> None:
         """Go on, with `stands` until the mission is over or paused at the latest."""
@@ -53,9 +58,13 @@ class Drive:
                 return
             self.rig.round()
 
-    def again(self) -> Replayed:
+    def end(self) -> None:
+        """The process ends, in whatever state the mission is."""
         self.rig.close()
         self._taping.__exit__(None, None, None)
+
+    def again(self) -> Replayed:
+        self.end()
         return replay(self.directory, read_settings(self.directory.settings))
 
 
@@ -90,4 +99,26 @@ def test_what_a_person_did_is_done_again(tmp_path: Path) -> None:
     events = [line.event for line in read(drive.directory.journal)]
     assert events.count("pause") == 2
     assert {"resume", "reset", "fail"} <= {*events}
+    assert done.same, done
+
+
+def test_a_run_that_was_taken_up_by_another_process_is_repeated_whole(tmp_path: Path) -> None:
+    drive = Drive(tmp_path)
+    drive.until(STRUCK_S + 1)
+    left_s = drive.rig.now_s
+    drive.end()
+    booking = last_booking(drive.directory.ledger)
+    assert booking is not None
+
+    drive.begin()
+    drive.rig.operating.take_up(booking)
+    drive.rig.skip_to(left_s + 5)
+    drive.rig.operating.start(drive.rig.now_s)
+    drive.until(left_s + 9)
+
+    done = drive.again()
+
+    events = [line.event for line in read(drive.directory.journal)]
+    assert events.count("start") == 2
+    assert "place fits" in events
     assert done.same, done
