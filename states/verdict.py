@@ -63,7 +63,8 @@ def _objection(evidence: tuple[Evidence, ...]) -> str:
     """The gravest of what does not hold: what would be run over, where the lane lies, then what lacks."""
     _, _, shown, off, uneven, beside = evidence
     if not holds(beside):
-        return f"{beside.value:.0f} rows stand where the wheels will go"
+        rows = "a row stands" if beside.value == 1 else f"{beside.value:.0f} rows stand"
+        return f"{rows} where the wheels will go"
     known = (each for each in (off, uneven) if not isnan(each.value))  # nothing speaks against the unknown
     wrong = next((each for each in known if not holds(each)), None)
     if wrong is None:

@@ -24,7 +24,8 @@ def evidence(
 @pytest.mark.parametrize(
     ("found", "said"),
     [
-        (evidence(beside=1, off_m=0.3), "1 rows stand where the wheels will go"),
+        (evidence(beside=1, off_m=0.3), "a row stands where the wheels will go"),
+        (evidence(beside=2), "2 rows stand where the wheels will go"),
         (evidence(off_m=0.14, uneven=0.5), "its lane lies off by 0.14 m, at most 0.10"),
         (evidence(uneven=0.24, shown=1), "its row spacing is off by the share 0.24, at most 0.20"),
         (evidence(shown=1, off_m=nan, uneven=nan), "1 of 3 rows show plants where they should"),
