@@ -11,8 +11,8 @@ from threading import Event
 from types import FrameType
 
 from fieldnav.cli.console import out, table
-from fieldnav.cli.mission_report import against_truth
 from fieldnav.errors import SettingsError
+from fieldnav.inquiry.figure_words import against_truth
 from fieldnav.messages import CameraName, Side
 from fieldnav.settings.field import FieldSettings
 from fieldnav.settings.kinds import is_path

@@ -11,7 +11,6 @@ from fieldnav.inquiry.outcome import Outcome, overview
 from fieldnav.inquiry.stops import is_note, stands
 from fieldnav.journal.directory import RunDirectory
 from fieldnav.journal.entry import Line
-from fieldnav.journal.ledger import last_booking
 
 NEAR_S = 1.0
 """So long after a line a moment is still the line's."""
@@ -52,8 +51,9 @@ def asked_about(directory: RunDirectory, moment: Moment | None) -> Asked:
 
 
 def _last(directory: RunDirectory, lines: JournalLines, last: Line) -> Asked:
-    if _broke_off(directory, last):
-        return _broken_off(directory, lines, last)
+    broke_off = _broken_off(directory, lines, last)
+    if broke_off is not None:
+        return broke_off
     for only in (Only.STOPS, Only.CHANGES):
         for placed in Chosen(lines, Choice(only)):
             return _around(lines, placed)
@@ -78,10 +78,9 @@ def _at(directory: RunDirectory, lines: JournalLines, at_s: float, last: Line) -
     near = list(takewhile(lambda each: at_s - each[1].stamp_s <= NEAR_S, placed))
     for each, line in sorted(near, key=lambda each: is_note(each[1])):  # stable: the nearest transition first
         return _around(lines, each, line)
-    if end == lines.end and _broke_off(directory, last):
-        broken_off = _broken_off(directory, lines, last)
-        if at_s >= broken_off.at_s - ROUNDED_S:
-            return broken_off
+    broke_off = _broken_off(directory, lines, last) if end == lines.end else None
+    if broke_off is not None and at_s >= broke_off.at_s - ROUNDED_S:
+        return broke_off
     older = tuple(line for _, line in reversed(placed))
     return Asked(at_s, older[-1], older[:-1], _first(lines, end), happened=False)
 
@@ -98,16 +97,12 @@ def _first(lines: JournalLines, start: int) -> Line | None:
     return placed and lines.parse(placed)
 
 
-def _broken_off(directory: RunDirectory, lines: JournalLines, last: Line) -> Asked:
-    """The ledger is written between transitions too, and knows how far it went."""
+def _broken_off(directory: RunDirectory, lines: JournalLines, last: Line) -> Asked | None:
+    """The end of a run that ended without a stop; None for any other."""
+    if stands(last):
+        return None
+    ended = overview(directory)
+    if ended.outcome not in (Outcome.BROKEN_OFF, Outcome.STOPPED):
+        return None
     around = _around(lines, next(lines.backwards()))
-    try:
-        booking = last_booking(directory.ledger)
-    except FieldnavError:
-        booking = None
-    at_s = max(last.stamp_s, booking.stamp_s if booking else last.stamp_s)
-    return Asked(at_s, around.line, around.before, None, happened=False, broken_off=True)
-
-
-def _broke_off(directory: RunDirectory, last: Line) -> bool:
-    return not stands(last) and overview(directory).outcome in (Outcome.BROKEN_OFF, Outcome.STOPPED)
+    return Asked(ended.seconds, around.line, around.before, None, happened=False, broken_off=True)

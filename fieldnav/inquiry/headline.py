@@ -7,6 +7,7 @@ from enum import Enum
 from fieldnav.inquiry.asked import Asked
 from fieldnav.inquiry.cause import KILLED, Cause, cause_of
 from fieldnav.inquiry.chances import chances
+from fieldnav.inquiry.line_words import in_lane, states_of
 from fieldnav.inquiry.moment import clock
 from fieldnav.inquiry.stops import is_note, is_stop, top
 from fieldnav.inquiry.words import judgements
@@ -46,9 +47,9 @@ def headline(asked: Asked, judged: Sequence[Judged] = ()) -> Headline:
     cause = cause_of(line, asked.before)
     kind = _kind(line)
     what = kind.value if kind in (Kind.STOPPED, Kind.PAUSED) else line.event
-    change = f"in {line.source}" if is_note(line) else f"{line.source} -> {line.target}"
+    change = f"{'in ' if is_note(line) else ''}{states_of(line)}"
     return Headline(
-        kind, f"{what} at {clock(line.stamp_s)}{_lane(line)}, {change}: {cause.said}", cause, evidence
+        kind, f"{what} at {clock(line.stamp_s)}{in_lane(line.lane)}, {change}: {cause.said}", cause, evidence
     )
 
 
@@ -61,7 +62,7 @@ def _kind(line: Line) -> Kind:
 def _broke_off(asked: Asked, evidence: tuple[Judged, ...]) -> Headline:
     line = asked.line
     cause = Cause(str(KILLED), KILLED.fault, (line,))
-    text = f"broke off at {clock(asked.at_s)}{_lane(line)}, in {line.target}: {cause.said}"
+    text = f"broke off at {clock(asked.at_s)}{in_lane(line.lane)}, in {line.target}: {cause.said}"
     return Headline(Kind.BROKE_OFF, text, cause, evidence)
 
 
@@ -76,9 +77,5 @@ def _nothing(asked: Asked, evidence: tuple[Judged, ...]) -> Headline:
         said = cause_of(line, asked.before).said
     else:
         said = "what was judged then is not written down" if not evidence else "no condition of an event"
-    text = f"nothing changed at {clock(asked.at_s)}{_lane(line)}, {since}: {said}"
+    text = f"nothing changed at {clock(asked.at_s)}{in_lane(line.lane)}, {since}: {said}"
     return Headline(Kind.NOTHING, text, replace(cause_of(line, asked.before), said=said), evidence)
-
-
-def _lane(line: Line) -> str:
-    return "" if line.lane is None else f" in lane {line.lane}"

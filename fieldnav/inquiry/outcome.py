@@ -7,8 +7,9 @@ from pydantic import BaseModel, ConfigDict
 from fieldnav.errors import FieldnavError
 from fieldnav.inquiry.lines import JournalLines
 from fieldnav.journal.directory import RunDirectory
+from fieldnav.journal.ledger import Booking, last_booking
 from fieldnav.journal.ledger_lock import being_driven
-from fieldnav.journal.summary import Summary, read_summary
+from fieldnav.journal.summary import Lanes, Summary, read_summary
 
 
 class Outcome(Enum):
@@ -20,7 +21,11 @@ class Outcome(Enum):
 
 
 class Overview(BaseModel):
-    """One run in a line: how and where it ended, and its figures if they were written."""
+    """One run in a line: how and where it ended, and its figures if they were written.
+
+    seconds: how far the journal goes, or the ledger, which is written between transitions, too. lanes: as
+    the summary has them, or else the ledger; None where neither does.
+    """
 
     model_config = ConfigDict(frozen=True)
 
@@ -30,6 +35,7 @@ class Overview(BaseModel):
     last_state: str = ""
     reason: str = ""
     seconds: float = 0.0
+    lanes: Lanes | None = None
     summary: Summary | None = None
 
 
@@ -42,15 +48,25 @@ def overview(directory: RunDirectory) -> Overview:
         summary = read_summary(directory.summary)
     except FieldnavError as error:
         return Overview(run=name, path=path, outcome=Outcome.UNREADABLE, reason=str(error))
+    booking = _newest(directory)
     return Overview(
         run=name,
         path=path,
         outcome=_outcome(directory, summary),
         last_state=last.target if last else "",
         reason=last.reason if last and not (summary and summary.completed) else "",
-        seconds=last.stamp_s if last else 0.0,
+        seconds=max(each.stamp_s if each else 0.0 for each in (last, booking)),
+        lanes=summary.lanes if summary else booking and Lanes(done=len(booking.done), total=booking.lanes),
         summary=summary,
     )
+
+
+def _newest(directory: RunDirectory) -> Booking | None:
+    """Of the ledger; a run is told of without it where it cannot be read."""
+    try:
+        return last_booking(directory.ledger)
+    except FieldnavError:
+        return None
 
 
 def _outcome(directory: RunDirectory, summary: Summary | None) -> Outcome:

@@ -1,4 +1,4 @@
-"""How a quantity that was judged reads."""
+"""How quantities and figures read."""
 
 from collections.abc import Sequence
 
@@ -43,3 +43,13 @@ def figure(value: float) -> str:
     """Three digits."""
     value += 0.0  # minus zero is zero
     return f"{value:.3g}" if abs(value) < WHOLE_FROM else f"{value:.0f}"
+
+
+def measured(value: float, unit: str) -> str:
+    """A figure with its unit."""
+    return f"{figure(value)} {unit}".rstrip()
+
+
+def counted(number: int, one: str, many: str = "") -> str:
+    """1 lane, 2 lanes."""
+    return f"{number} {one if number == 1 else many or f'{one}s'}"

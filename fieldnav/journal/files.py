@@ -1,27 +1,33 @@
 """Writing a whole file or none of it, and whole lines or none of them."""
 
 import os
-from collections.abc import Callable
-from contextlib import suppress
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager, suppress
 from io import FileIO
 from pathlib import Path
 
 from fieldnav.errors import OutputError
 
 
-def write_atomically(path: Path, content: bytes) -> None:
-    """Write beside the file, sync, rename over it. Raises OutputError; the old file then still stands."""
+@contextmanager
+def whole_file(path: Path) -> Iterator[Path]:
+    """Where to write it: beside its place, which it takes once it is whole. Raises OutputError."""
     beside = path.with_name(f".{path.name}.part")
     try:
-        with beside.open("wb") as file:
-            file.write(content)
-            file.flush()
-            os.fsync(file.fileno())
+        yield beside
         beside.replace(path)
     except OSError as error:
         raise unwritable(path, error) from error
     finally:
         beside.unlink(missing_ok=True)
+
+
+def write_atomically(path: Path, content: bytes) -> None:
+    """Write beside the file, sync, rename over it. Raises OutputError; the old file then still stands."""
+    with whole_file(path) as beside, beside.open("wb") as file:
+        file.write(content)
+        file.flush()
+        os.fsync(file.fileno())
 
 
 def append_line(file: FileIO, line: bytes, sync: Callable[[], None]) -> None:

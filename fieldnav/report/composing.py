@@ -4,6 +4,7 @@ from collections.abc import Sequence
 from datetime import UTC
 
 from fieldnav.errors import FieldnavError
+from fieldnav.inquiry.evidence_rows import condition_rows, evidence_rows
 from fieldnav.inquiry.near_misses import NearMiss
 from fieldnav.inquiry.outcome import Outcome, overview
 from fieldnav.inquiry.stops import stands
@@ -11,7 +12,6 @@ from fieldnav.journal.resolved import read_settings
 from fieldnav.report.chart import chart_of
 from fieldnav.report.curves import driving_panels, health_panels
 from fieldnav.report.drawn_map import map_of
-from fieldnav.report.evidence_table import condition_rows, evidence_rows
 from fieldnav.report.headline import headline
 from fieldnav.report.health import health_of, truth_of
 from fieldnav.report.lanes import lanes_of

@@ -3,13 +3,16 @@
 from collections.abc import Sequence
 from dataclasses import dataclass
 
+from fieldnav.inquiry.figure_words import finished
+from fieldnav.inquiry.line_words import in_lane
 from fieldnav.inquiry.moment import clock
 from fieldnav.inquiry.outcome import Outcome, Overview
-from fieldnav.journal.summary import Lanes, Truth
+from fieldnav.inquiry.words import counted
+from fieldnav.journal.summary import Lanes
 from fieldnav.report.material import Material
 from fieldnav.report.spans import distance_m
 from fieldnav.report.stops import Kind, Stop
-from fieldnav.report.words import counted, fixed, sentence, stopped
+from fieldnav.report.words import fixed, sentence, stopped
 
 
 @dataclass(frozen=True, slots=True)
@@ -23,7 +26,7 @@ class Headline:
 
 def headline(material: Material, ended: Overview, stops: Sequence[Stop], end_s: float) -> Headline:
     """The first thing that is read."""
-    lanes = lanes_done(material)
+    lanes = ended.lanes or _lanes_asked_for(material)
     driven_m = material.summary.distance_m if material.summary else distance_m(material.lines)
     begin_s = material.lines[0].stamp_s if material.lines else 0.0
     figures = [
@@ -38,13 +41,8 @@ def headline(material: Material, ended: Overview, stops: Sequence[Stop], end_s: 
     return Headline(ended.outcome, said, tuple((label, value) for label, value in figures if value))
 
 
-def lanes_done(material: Material) -> Lanes | None:
-    """Lanes done and to do, by the summary, else by the ledger, else by what was asked for."""
-    if material.summary is not None:
-        return material.summary.lanes
-    if material.bookings:
-        last = material.bookings[-1]
-        return Lanes(done=len(last.done), total=last.lanes)
+def _lanes_asked_for(material: Material) -> Lanes | None:
+    """Of a run that was not far enough to note any; None where nothing was written down."""
     options = material.settings.get("options")
     total = options.get("lanes") if isinstance(options, dict) else None
     return Lanes(done=0, total=total) if isinstance(total, int) and material.lines else None
@@ -57,22 +55,15 @@ def _ending(material: Material, ended: Overview, stops: Sequence[Stop]) -> str:
         return "The run has no journal lines: it ended before it began."
     last, stop = material.lines[-1], stops[-1] if stops else None
     if ended.outcome is Outcome.FINISHED:
-        return _finished(material.summary.truth if material.summary else None)
-    where = f"at {clock(last.stamp_s)}{'' if last.lane is None else f' in lane {last.lane}'}"
+        return sentence(finished(material.summary))
+    where = f"at {clock(last.stamp_s)}{in_lane(last.lane)}"
     if ended.outcome is Outcome.RUNNING:
         return f"Still being driven: {where} it was in {last.target}."
     if stop is None or stop.kind not in (Kind.STOP, Kind.PAUSE):
         return f"Ended {where} in {last.target}, without a stop."
-    at = f"at {clock(stop.line.stamp_s)}{'' if stop.line.lane is None else f' in lane {stop.line.lane}'}"
+    at = f"at {clock(stop.line.stamp_s)}{in_lane(stop.line.lane)}"
     verb = "Broken off" if ended.outcome is Outcome.BROKEN_OFF else "Stopped"
     return f"{verb} {at}, in {stop.line.source}: {stopped(stop.cause.said)}"
-
-
-def _finished(truth: Truth | None) -> str:
-    """In simulation also what the robot could not know."""
-    if truth is None or not truth.lanes_missed:
-        return "Finished."
-    return f"Finished, but {counted(truth.lanes_missed, 'lane was', 'lanes were')} missed."
 
 
 def _done(lanes: Lanes | None) -> str:

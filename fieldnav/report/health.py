@@ -4,12 +4,14 @@ from collections.abc import Iterable
 
 import numpy as np
 
+from fieldnav.inquiry.figure_words import against_truth, lateness
 from fieldnav.inquiry.moment import clock
+from fieldnav.inquiry.words import counted
 from fieldnav.messages import Floats
 from fieldnav.recording.records import Gap
 from fieldnav.report.material import Material
 from fieldnav.report.trail import Trail
-from fieldnav.report.words import counted, fixed
+from fieldnav.report.words import fixed
 
 MS_A_SECOND = 1000
 Facts = list[tuple[str, str]]
@@ -26,22 +28,7 @@ def health_of(material: Material) -> Facts:
 def truth_of(material: Material) -> Facts:
     """What only a simulation knows; nothing on a robot."""
     truth = material.summary.truth if material.summary else None
-    if truth is None:
-        return []
-    track, heading = truth.cross_track_cm, truth.heading_deg
-    return [
-        (
-            "true cross-track error",
-            f"{fixed(track.mean, 2)} cm on average, 95 % within {fixed(track.p95, 2)}, "
-            f"at most {fixed(track.max, 2)} cm",
-        ),
-        (
-            "true heading error",
-            f"{fixed(heading.mean, 2)}° on average, at most {fixed(heading.max, 2)}°",
-        ),
-        ("crop plants run over", str(truth.crop_plants_run_over)),
-        ("lanes missed, repeated", f"{truth.lanes_missed}, {truth.lanes_repeated}"),
-    ]
+    return against_truth(truth) if truth else []
 
 
 def _battery(trail: Trail) -> Facts:
@@ -60,8 +47,7 @@ def _loop(material: Material) -> Facts:
     facts = []
     loop = material.summary.loop if material.summary else None
     if loop is not None:
-        late = f"99 % of the rounds within {loop.late_p99_ms:.0f} ms, at most {loop.late_max_ms:.0f} ms"
-        facts.append(("lateness of the loop", f"{late}, of {counted(loop.rounds, 'round')}"))
+        facts.append(("lateness of the loop", lateness(loop)))
     if len(material.trail) > 1:
         apart_ms = np.diff(material.trail.time_s) * MS_A_SECOND
         told = f"{np.median(apart_ms):.0f} ms in the median, at most {apart_ms.max():.0f} ms"

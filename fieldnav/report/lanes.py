@@ -9,13 +9,13 @@ from math import nan
 import numpy as np
 
 from fieldnav.inquiry.cause import HELD
+from fieldnav.inquiry.quantities import LENGTH, value_of
 from fieldnav.inquiry.stops import is_stop
 from fieldnav.journal.entry import Line
 from fieldnav.journal.ledger import Booking
 from fieldnav.messages import Direction, Floats
 from fieldnav.report.material import Material
 from fieldnav.report.naming import LEFT, LOST, direction_of, in_phase
-from fieldnav.report.quantities import LENGTH, value_of
 from fieldnav.report.spans import Span
 from fieldnav.report.trail import Trail
 from fieldnav.settings.robot import Robot

@@ -11,21 +11,21 @@ from markupsafe import Markup, escape
 
 from fieldnav import __version__
 from fieldnav.inquiry.chances import deciding
+from fieldnav.inquiry.evidence_rows import Row
 from fieldnav.inquiry.moment import clock
 from fieldnav.inquiry.near_misses import NearMiss
 from fieldnav.inquiry.outcome import Outcome
-from fieldnav.inquiry.words import judgement
+from fieldnav.inquiry.words import counted, judgement
 from fieldnav.journal.entry import Line
 from fieldnav.journal.phases import INK, PHASE_COLOURS
 from fieldnav.report.drawn_map import ReportMap
 from fieldnav.report.embedded import Shown
-from fieldnav.report.evidence_table import Row
 from fieldnav.report.headline import Headline
 from fieldnav.report.health import Facts
 from fieldnav.report.lanes import Lane
 from fieldnav.report.shapes import Chart
 from fieldnav.report.stops import Stop
-from fieldnav.report.words import NOTHING, counted, fixed, known, sentence
+from fieldnav.report.words import NOTHING, fixed, known, sentence
 
 BREAK = re.compile(r"([._])(?=\w)")
 LEAST_SHARE = 0.01

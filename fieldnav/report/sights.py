@@ -6,11 +6,11 @@ from math import nan
 
 import numpy as np
 
+from fieldnav.inquiry.quantities import HEADING, LANE_ENDED, NEXT_LANE, OFFSET
 from fieldnav.journal.entry import Judged
 from fieldnav.messages import Floats
 from fieldnav.recording.records import Stepped
 from fieldnav.report.naming import follows_rows
-from fieldnav.report.quantities import HEADING, LANE_ENDED, NEXT_LANE, OFFSET
 
 PICKED = (OFFSET, HEADING, LANE_ENDED, NEXT_LANE)
 COLUMNS = 11

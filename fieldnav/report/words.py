@@ -3,7 +3,7 @@
 from collections.abc import Iterable
 from math import isfinite
 
-from fieldnav.inquiry.words import figure
+from fieldnav.inquiry.words import measured
 
 NOTHING = "\N{EN DASH}"
 """What a table has where there is nothing."""
@@ -13,7 +13,7 @@ def known(value: float | None, unit: str = "") -> str:
     """A value with the digits that count; the dash where it is not known."""
     if value is None or not isfinite(value):
         return NOTHING
-    return f"{figure(value)} {unit}".rstrip()
+    return measured(value, unit)
 
 
 def fixed(value: float | None, decimals: int, unit: str = "") -> str:
@@ -21,11 +21,6 @@ def fixed(value: float | None, decimals: int, unit: str = "") -> str:
     if value is None or not isfinite(value):
         return NOTHING
     return f"{value:.{decimals}f} {unit}".rstrip()
-
-
-def counted(number: int, one: str, many: str = "") -> str:
-    """1 lane, 2 lanes."""
-    return f"{number} {one if number == 1 else many or f'{one}s'}"
 
 
 def listed(parts: Iterable[str]) -> str:

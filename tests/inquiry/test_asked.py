@@ -11,13 +11,9 @@ from fieldnav.inquiry.headline import Kind, headline
 from fieldnav.inquiry.moment import Moment
 from fieldnav.journal.directory import RunDirectory
 from fieldnav.journal.entry import Entry, Judged
-from fieldnav.journal.ledger import Booking, Ledger
 from fieldnav.messages import Bound
 
 Written = Callable[..., RunDirectory]
-BOOKING = Booking(
-    stamp_s=27.5, state="x", side="right", lanes=1, lane=1, done=(), rows=3, forward_m=1.0, sideways_m=0.0
-)
 
 
 def test_without_a_moment_the_last_stop_is_meant(written: Written) -> None:
@@ -122,40 +118,6 @@ def test_a_time_before_the_first_line_says_so(written: Written) -> None:
 def test_a_journal_without_lines_says_so(written: Written) -> None:
     with pytest.raises(FieldnavError, match="holds no line yet"):
         asked_about(written([]), None)
-
-
-def test_a_run_that_broke_off_did_so_where_its_ledger_ends(
-    written: Written, mission: Sequence[Entry]
-) -> None:
-    directory = written(mission[:6])
-    with Ledger(directory.ledger) as ledger:
-        ledger.book(BOOKING)
-
-    for moment in (None, Moment(at_s=29.0)):
-        said = headline(asked_about(directory, moment))
-
-        assert said.kind is Kind.BROKE_OFF
-        assert said.text.startswith(
-            "broke off at 0:27.5 in lane 1, in Forward.Follow.Coasting: process killed: "
-        )
-
-
-def test_before_a_run_broke_off_it_was_still_in_its_state(written: Written, mission: Sequence[Entry]) -> None:
-    directory = written(mission[:6])
-    with Ledger(directory.ledger) as ledger:
-        ledger.book(BOOKING)
-
-    assert headline(asked_about(directory, Moment(at_s=26.5))).kind is Kind.NOTHING
-
-
-def test_a_run_that_is_being_driven_has_not_broken_off(written: Written, mission: Sequence[Entry]) -> None:
-    directory = written(mission[:6])
-
-    with Ledger(directory.ledger) as ledger:
-        ledger.book(BOOKING)
-        said = headline(asked_about(directory, None))
-
-    assert said.kind is Kind.CHANGED
 
 
 def test_the_comparison_shown_of_a_condition_is_the_one_that_was_made(written: Written) -> None:

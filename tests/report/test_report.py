@@ -41,7 +41,7 @@ def test_a_stop_from_outside_shows_what_was_judged_last_before_it(make_run: RunM
     page = page_of(make_run(recorded=True))
 
     assert page.rows["stop-2"][0][0] == "what was judged last before it"
-    assert ["rows poorly seen over", "0 m", "above 0.25 m", "-0.25 m", "rows lost"] in page.rows["stop-2"]
+    assert ["rows poorly seen over", "0 m", "> 0.25", "-0.25 m", "rows lost"] in page.rows["stop-2"]
 
 
 def test_a_lane_is_told_with_what_the_robot_judged_of_it(make_run: RunMaker) -> None:

@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fieldnav.inquiry.moment import clock
-from fieldnav.inquiry.words import figure
+from fieldnav.inquiry.words import figure, measured
 from fieldnav.messages import Floats
 
 LABEL = 8
@@ -56,10 +56,9 @@ def chart(course: Course, span_s: tuple[float, float], width: int, plain: bool) 
 
 
 def _title(course: Course) -> str:
-    unit = f" {course.unit}" if course.unit else ""
-    newest = f"{course.name}: {figure(float(course.value[-1]))}"
-    return f"{newest}{unit}" + (
-        "" if course.threshold is None else f", threshold {figure(course.threshold)}{unit}"
+    newest = f"{course.name}: {measured(float(course.value[-1]), course.unit)}"
+    return newest + (
+        "" if course.threshold is None else f", threshold {measured(course.threshold, course.unit)}"
     )
 
 

@@ -37,6 +37,7 @@ def export(
         from fieldnav.cli.log.export_mcap import export_mcap  # noqa: PLC0415 - slow to import
 
         export_mcap(directory, _free("--mcap", mcap, force))
+        print(mcap)
         return
     assert csv is not None
     target = None if csv == STANDARD_OUTPUT else _free("--csv", csv, force)
@@ -46,6 +47,8 @@ def export(
         ticks_csv(directory, target)
     else:
         transitions_csv(directory, target)
+    if target is not None:
+        print(target)
 
 
 def _free(option: str, path: Path, force: bool) -> Path:

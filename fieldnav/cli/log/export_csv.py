@@ -3,7 +3,6 @@
 import csv
 import sys
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from contextlib import contextmanager
 from pathlib import Path
 from typing import TextIO
 
@@ -11,7 +10,7 @@ from fieldnav.inquiry.flat import Cell, columns, rows
 from fieldnav.inquiry.lines import JournalLines
 from fieldnav.journal.directory import RunDirectory
 from fieldnav.journal.entry import Line
-from fieldnav.journal.files import unwritable
+from fieldnav.journal.files import whole_file
 
 
 def transitions_csv(directory: RunDirectory, target: Path | None) -> None:
@@ -31,26 +30,11 @@ def write_csv(target: Path | None, names: Sequence[str], table: Iterable[Mapping
     if target is None:
         _write(sys.stdout, names, table)
         return
-    try:
-        with _whole(target) as file:
-            _write(file, names, table)
-    except OSError as error:
-        raise unwritable(target, error) from error
+    with whole_file(target) as beside, beside.open("w", encoding="utf-8", newline="") as file:
+        _write(file, names, table)
 
 
 def _write(file: TextIO, names: Sequence[str], table: Iterable[Mapping[str, Cell]]) -> None:
     writer = csv.DictWriter(file, names, lineterminator="\n")
     writer.writeheader()
     writer.writerows(table)
-
-
-@contextmanager
-def _whole(target: Path) -> Iterator[TextIO]:
-    """Written beside the target, and renamed to it once it is whole. Raises OSError."""
-    beside = target.with_name(f".{target.name}.part")
-    try:
-        with beside.open("w", encoding="utf-8", newline="") as file:
-            yield file
-        beside.replace(target)
-    finally:
-        beside.unlink(missing_ok=True)

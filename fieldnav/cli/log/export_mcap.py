@@ -7,7 +7,7 @@ from pathlib import Path
 from fieldnav.errors import FieldnavError
 from fieldnav.inquiry.lines import JournalLines
 from fieldnav.journal.directory import RunDirectory
-from fieldnav.journal.files import unwritable
+from fieldnav.journal.files import whole_file
 from fieldnav.recording.message import Message, Topic
 from fieldnav.recording.opening import existing_file
 from fieldnav.recording.piece import Piece, new_file
@@ -18,8 +18,7 @@ from fieldnav.recording.stamps import EPOCH, NS_PER_US
 
 def export_mcap(directory: RunDirectory, target: Path) -> None:
     """Write the whole file or nothing. Raises FieldnavError, OutputError."""
-    beside = target.with_name(f".{target.name}.part")
-    try:
+    with whole_file(target) as beside:
         beside.unlink(missing_ok=True)
         pieces = list(pieces_in(directory).values())
         messages = _recorded(pieces) if pieces else _written_down(directory)
@@ -27,11 +26,6 @@ def export_mcap(directory: RunDirectory, target: Path) -> None:
         for message in messages:
             piece.write(message)
         piece.close()
-        beside.replace(target)
-    except OSError as error:
-        raise unwritable(target, error) from error
-    finally:
-        beside.unlink(missing_ok=True)
 
 
 def _begun(directory: RunDirectory, pieces: list[Path]) -> datetime:

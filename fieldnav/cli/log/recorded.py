@@ -6,6 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from fieldnav.cli.log.chart import Course
+from fieldnav.inquiry.quantities import OFFSET
 from fieldnav.journal.directory import RunDirectory
 from fieldnav.journal.entry import Judged, Line
 from fieldnav.recording.picture import Picture
@@ -67,10 +68,6 @@ def courses(known: Recorded, conditions: tuple[Judged, ...]) -> Iterator[Course]
         yield Course("speed told to the wheels", at_s, speed_mps, None, "m/s")
     if OFFSET not in [judged.name for judged in conditions]:
         yield from _course(known.steps, OFFSET, None, "m")
-
-
-OFFSET = "offset from the lane"
-"""How the guides call it, see states.guides."""
 
 
 def _course(steps: tuple[Stepped, ...], name: str, threshold: float | None, unit: str) -> Iterator[Course]:

@@ -1,7 +1,6 @@
 """`fieldnav log stats`: where a run's time and way went, and how narrowly its decisions fell."""
 
 from collections.abc import Iterator
-from pathlib import Path
 
 from rich.console import Console
 
@@ -12,29 +11,28 @@ from fieldnav.cli.log.stats_json import as_json
 from fieldnav.cli.log.stats_tables import (
     events_table,
     lanes_table,
+    left_out,
     loop_line,
     missed_table,
     states_table,
     troubles_table,
 )
 from fieldnav.cli.log.tables import heading
-from fieldnav.errors import FieldnavError
 from fieldnav.inquiry.lines import JournalLines
 from fieldnav.inquiry.outcome import Overview, overview
 from fieldnav.inquiry.spent import Account, account
 from fieldnav.inquiry.tally import Tally
 from fieldnav.journal.directory import find_run
 from fieldnav.journal.entry import Line
-from fieldnav.journal.ledger import last_booking
 
 
 def stats(run: RunArgument = "last", runs: RunsOption = RUNS, json: JsonOption = False) -> None:
     """Add a run up: time and way in each state, transitions, margins, near misses, faults, lateness."""
     directory = find_run(run, runs)
-    made = Tally()
+    made, ended = Tally(), overview(directory)
     with JournalLines(directory.journal) as journal:
-        spent = account(_tallied(journal, made), _until_s(directory.ledger))
-    ended, missed = overview(directory), near_misses(directory)
+        spent = account(_tallied(journal, made), ended.seconds)
+    missed = near_misses(directory)
     if json:
         print_json(as_json(ended, spent, made, missed))
     else:
@@ -49,22 +47,16 @@ def _tallied(journal: JournalLines, made: Tally) -> Iterator[Line]:
         yield line
 
 
-def _until_s(ledger: Path) -> float | None:
-    """When the run was last known to be in its last state."""
-    try:
-        booking = last_booking(ledger)
-    except FieldnavError:
-        return None
-    return None if booking is None else booking.stamp_s
-
-
 def _print(console: Console, ended: Overview, spent: Account, made: Tally, missed: Missed) -> None:
     console.print(heading(ended))
-    tables = [states_table(spent), lanes_table(made), events_table(made)]
-    if made.faults or made.holds:
-        tables.append(troubles_table(made))
-    for table in tables:
+    for table in (states_table(spent), lanes_table(made)):
         console.print(table)
+        console.print()
+    console.print(events_table(made))
+    console.print(left_out(made), style="dim")
+    console.print()
+    if made.faults or made.holds:
+        console.print(troubles_table(made))
         console.print()
     if missed.misses:
         console.print(missed_table(missed))

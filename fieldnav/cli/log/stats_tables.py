@@ -7,10 +7,11 @@ from rich.table import Table
 
 from fieldnav.cli.console import table
 from fieldnav.cli.log.near_misses import Missed
+from fieldnav.inquiry.figure_words import lateness
 from fieldnav.inquiry.moment import clock
 from fieldnav.inquiry.spent import Account
 from fieldnav.inquiry.tally import NO_LANE, Tally
-from fieldnav.inquiry.words import figure, judgements
+from fieldnav.inquiry.words import counted, figure, judgements, measured
 from fieldnav.journal.summary import Summary
 
 
@@ -47,18 +48,26 @@ def lanes_table(made: Tally) -> Table:
 
 
 def events_table(made: Tally) -> Table:
-    """By how much each condition was met when its event came about."""
+    """By how much each condition was met when its event came about; not of counts, which are met exactly."""
+    told = {of: margins for of, margins in sorted(made.margins.items()) if any(margins)}
     rows = [
         (event, name, str(len(margins)), *_spread(margins, unit))
-        for (event, name, unit), margins in sorted(made.margins.items())
+        for (event, name, unit), margins in told.items()
     ]
     columns = ("event", "condition", "times", "least", "median", "most")
     return table("margins by which events came about", columns, rows, right=columns[2:])
 
 
+def left_out(made: Tally) -> str:
+    """Which conditions that table leaves out."""
+    exact = sum(not any(margins) for margins in made.margins.values())
+    return (
+        f"{counted(exact, 'condition')} without a margin: a count that had just been reached" if exact else ""
+    )
+
+
 def _spread(margins: Sequence[float], unit: str) -> tuple[str, str, str]:
-    least, middle, most = (figure(each) for each in (min(margins), median(margins), max(margins)))
-    return least, middle, f"{most} {unit}".rstrip()
+    return figure(min(margins)), figure(median(margins)), measured(max(margins), unit)
 
 
 def troubles_table(made: Tally) -> Table:
@@ -76,14 +85,13 @@ def missed_table(missed: Missed) -> Table:
         (
             clock(miss.step.now_s),
             str(miss.step.lane),
-            miss.step.state,
-            miss.chance.event,
+            f"{miss.chance.event}\nin {miss.step.state}",
             f"{miss.lacking:.1%}",
             judgements(miss.chance.deciding),
         )
         for miss in missed.misses
     ]
-    columns = ("time", "lane", "state", "event", "lacked", "by")
+    columns = ("time", "lane", "event", "lacked", "by")
     return table("nearly came about, and did not", columns, rows, right=("time", "lane", "lacked"))
 
 
@@ -92,5 +100,4 @@ def loop_line(summary: Summary | None) -> str:
     loop = summary.loop if summary else None
     if loop is None:
         return "lateness of the loop: not known; only a run on a robot's clock has one"
-    late = f"99 % within {loop.late_p99_ms:.1f} ms, at most {loop.late_max_ms:.1f} ms"
-    return f"lateness of the loop: {late}, {loop.rounds} rounds"
+    return f"lateness of the loop: {lateness(loop)}"

@@ -7,6 +7,7 @@ from rich.text import Text
 
 from fieldnav.cli.console import table
 from fieldnav.inquiry.chances import deciding
+from fieldnav.inquiry.line_words import states_of
 from fieldnav.inquiry.moment import clock
 from fieldnav.inquiry.outcome import Outcome, Overview
 from fieldnav.inquiry.words import decisive, judgement
@@ -40,8 +41,9 @@ def runs_table(title: str, overviews: Sequence[Overview], width: int = WIDE) -> 
 
 def _short(each: Overview) -> tuple[str | Text, ...]:
     lanes, _, distance, time = _figures(each)
+    ending = [_ending(each)] if each.outcome is not Outcome.FINISHED else []
     return (
-        Text("\n").join([Text(each.run, style="bold"), _ending(each)]),
+        Text("\n").join([Text(each.run, style="bold"), *ending]),
         _outcome(each),
         lanes,
         distance,
@@ -52,10 +54,10 @@ def _short(each: Overview) -> tuple[str | Text, ...]:
 def heading(each: Overview) -> Text:
     """How one run ended, above its transitions."""
     lanes, switches, distance, time = _figures(each)
-    figures = (
-        f"lanes {lanes}, switches {switches}, {distance} in {time}" if each.summary else f"{time} recorded"
-    )
-    return Text.assemble((each.run, "bold"), "  ", _outcome(each), f"  {figures}", "\n", _ending(each), "\n")
+    told = [f"lanes {lanes}"] if lanes else []
+    told += [f"switches {switches}, {distance} in {time}"] if each.summary else [f"{time} written down"]
+    ending = "" if each.outcome is Outcome.FINISHED else Text.assemble("\n", _ending(each))
+    return Text.assemble((each.run, "bold"), "  ", _outcome(each), f"  {', '.join(told)}", ending, "\n")
 
 
 def transitions_table(lines: Sequence[Line], width: int = WIDE) -> Table:
@@ -72,7 +74,7 @@ def transitions_table(lines: Sequence[Line], width: int = WIDE) -> Table:
             line.event,
             "" if line.lane is None else str(line.lane),
             "" if line.rows is None else str(line.rows),
-            _because(line),
+            Text("\n").join(_because(line)),
         )
         for line in lines
     ]
@@ -86,7 +88,7 @@ def _narrow(lines: Sequence[Line]) -> Table:
             str(line.seq),
             clock(line.stamp_s),
             "" if line.lane is None else str(line.lane),
-            Text("\n").join([Text(f"{line.event}: {line.source} -> {line.target}"), _because(line)]),
+            Text("\n").join([Text(f"{line.event}: {states_of(line)}"), *_because(line)]),
         )
         for line in lines
     ]
@@ -95,19 +97,20 @@ def _narrow(lines: Sequence[Line]) -> Table:
     )
 
 
-def _because(line: Line) -> Text:
+def _because(line: Line) -> list[Text]:
     """The reason, which stands out where there is one, above the deciding quantities."""
     reason = [Text(line.reason, style="bold")] if line.reason else []
     judged = deciding(line.event, line.evidence) or decisive(line.evidence)
-    return Text("\n").join([*reason, *(Text(judgement(each)) for each in judged)])
+    return [*reason, *(Text(judgement(each)) for each in judged)]
 
 
 def _figures(each: Overview) -> tuple[str, str, str, str]:
+    lanes = f"{each.lanes.done}/{each.lanes.total}" if each.lanes else ""
     if each.summary is None:
-        return "", "", "", clock(each.seconds)
-    lanes, switches = each.summary.lanes, each.summary.switches
+        return lanes, "", "", clock(each.seconds)
+    switches = each.summary.switches
     return (
-        f"{lanes.done}/{lanes.total}",
+        lanes,
         f"{switches.succeeded}/{switches.attempted}",
         f"{each.summary.distance_m:.1f} m",
         clock(each.summary.duration_s),

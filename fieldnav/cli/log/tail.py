@@ -14,9 +14,10 @@ from fieldnav.cli.log.options import RUNS, JsonOption, RunArgument, RunsOption
 from fieldnav.cli.log.tables import heading
 from fieldnav.inquiry.cause import reason_of
 from fieldnav.inquiry.following import follow
+from fieldnav.inquiry.line_words import states_of
 from fieldnav.inquiry.moment import clock
 from fieldnav.inquiry.outcome import overview
-from fieldnav.inquiry.stops import is_note, is_stop
+from fieldnav.inquiry.stops import is_stop
 from fieldnav.journal.directory import find_run
 from fieldnav.journal.entry import Line
 
@@ -48,11 +49,12 @@ def _print(console: Console, line: Line, json: bool) -> None:
     if json:
         print(line.model_dump_json(), flush=True)
         return
-    where = line.source if is_note(line) else f"{line.source} -> {line.target}"
     lane = "" if line.lane is None else f"lane {line.lane}  "
     because = reason_of(line)
     style = "bold red" if is_stop(line) else "bold"
-    text = Text.assemble((f"{clock(line.stamp_s):>7}  ", "dim"), lane, (line.event, style), f"  {where}")
+    text = Text.assemble(
+        (f"{clock(line.stamp_s):>7}  ", "dim"), lane, (line.event, style), f"  {states_of(line)}"
+    )
     console.print(
         text + Text(f"  {because}" if because else "", style="" if is_stop(line) else "dim"), soft_wrap=True
     )

@@ -9,60 +9,31 @@ from fieldnav.cli.console import table
 from fieldnav.inquiry.asked import Asked
 from fieldnav.inquiry.cause import reason_of
 from fieldnav.inquiry.chances import Chance
+from fieldnav.inquiry.evidence_rows import UNMET, Row
+from fieldnav.inquiry.line_words import states_of
 from fieldnav.inquiry.moment import clock
-from fieldnav.inquiry.words import figure, judgement, judgements
+from fieldnav.inquiry.stops import is_note
+from fieldnav.inquiry.words import judgements, measured
 from fieldnav.journal.entry import Judged, Line
 
-WIDE = 80
-"""Columns from which on value and threshold stand beside the quantity's name."""
+HOLDS = {True: "green", False: "red", None: ""}
+"""Styles of a margin."""
 
 
-def judged_table(title: str, evidence: Sequence[Judged], width: int) -> Table:
-    """Every quantity with value, threshold, margin, and the event that it is a condition of; those first."""
-    ordered = sorted(evidence, key=lambda judged: not judged.fires)
-    if width < WIDE:
-        narrow = [
-            (Text(judgement(each), style=_style(each)), _margin(each), _event(each)) for each in ordered
-        ]
-        return table(title, ("quantity", "margin", "condition of"), narrow, right=("margin",))
-    rows = [
-        (Text(each.name, style=_style(each)), _value(each), _threshold(each), _margin(each), _event(each))
-        for each in ordered
+def judged_table(title: str, rows: Sequence[Row]) -> Table:
+    """Every quantity with value, threshold, margin, and the event that it is a condition of."""
+    columns = ("quantity", "value", "threshold", "margin", "condition of")
+    cells = [
+        (
+            Text(row.name, style="bold" if row.decided else ""),
+            row.value,
+            row.threshold,
+            Text(row.margin, style=HOLDS[row.holds]),
+            row.condition,
+        )
+        for row in rows
     ]
-    columns = ("quantity", "value", "wanted", "margin", "condition of")
-    return table(title, columns, rows, right=columns[1:-1])
-
-
-def _style(judged: Judged) -> str:
-    return "bold" if judged.holds and judged.fires else ""
-
-
-def _event(judged: Judged) -> Text:
-    return Text(f"{judged.fires}, alone" if judged.fires and judged.alone else judged.fires)
-
-
-def _value(judged: Judged) -> Text:
-    return Text("unknown" if judged.value is None else _with_unit(judged.value, judged.unit))
-
-
-def _with_unit(value: float, unit: str) -> str:
-    return f"{figure(value)} {unit}".rstrip()
-
-
-def _threshold(judged: Judged) -> Text:
-    """With the side that is wanted, of a condition."""
-    if judged.threshold is None:
-        return Text()
-    return Text(
-        f"{judged.bound.value} {figure(judged.threshold)}" if judged.fires else figure(judged.threshold)
-    )
-
-
-def _margin(judged: Judged) -> Text:
-    """Green where the condition holds."""
-    if judged.margin is None:
-        return Text()
-    return Text(f"{judged.margin + 0.0:+.3g}", style="green" if judged.holds else "red")
+    return table(title, columns, cells, right=columns[1:-1])
 
 
 def events_table(title: str, others: Sequence[Chance]) -> Table:
@@ -75,21 +46,30 @@ def events_table(title: str, others: Sequence[Chance]) -> Table:
 
 
 def _lacked(condition: Judged) -> str:
-    return "unknown" if condition.margin is None else _with_unit(-condition.margin, condition.unit)
+    if condition.margin is None:
+        return "unknown"
+    return measured(-condition.margin, condition.unit) if condition.margin else UNMET
 
 
 def neighbours_table(asked: Asked) -> Table:
-    """The line before, the line itself, the line after."""
+    """The line before, the line itself, which has been told of already, and the line after."""
     before = asked.before[-1] if asked.before else None
-    lines = [("before", before), ("here" if asked.happened else "last", asked.line), ("after", asked.after)]
-    rows = [(name, *_told(line)) for name, line in lines]
+    rows = [
+        ("before", *_told(before)),
+        ("here", *_told(asked.line)[:2], _what(asked.line))
+        if asked.happened
+        else ("last", *_told(asked.line)),
+        ("after", *_told(asked.after)),
+    ]
     return table("", ("", "seq", "time", "what"), rows, right=("seq", "time"))
 
 
 def _told(line: Line | None) -> tuple[str, str, str]:
     if line is None:
         return "", "", "nothing"
-    change = "" if line.source == line.target else f" {line.source} -> {line.target}"
     because = reason_of(line)
-    what = f"{line.event}{change}" + (f": {because}" if because else "")
-    return str(line.seq), clock(line.stamp_s), what
+    return str(line.seq), clock(line.stamp_s), _what(line) + (f": {because}" if because else "")
+
+
+def _what(line: Line) -> str:
+    return line.event if is_note(line) else f"{line.event}, {states_of(line)}"

@@ -1,6 +1,5 @@
 """`fieldnav log plot` and `log report` write what they say, where they say it."""
 
-from datetime import UTC, datetime
 from pathlib import Path
 
 import cv2
@@ -12,26 +11,25 @@ from fieldnav.cli.log.report import report
 from fieldnav.errors import FieldnavError, OutputError, SettingsError
 from fieldnav.journal.directory import RunDirectory
 from fieldnav.journal.entry import Entry
-from fieldnav.journal.journal import Journal
 from fieldnav.journal.phases import PHASE_COLOURS
 from fieldnav.messages import Evidence, Twist
 from fieldnav.report.material import Problems, gather
 from fieldnav.report.plot import WITHOUT_RECORDING, plot_of
 
-START = datetime(2026, 5, 1, 8, 30, tzinfo=UTC)
-TRACKING = "Forward.Follow.Tracking"
+from .made import EXIT, TRACKING, journalled
+
 SEEN = (Evidence("offset from the lane", 0.031, None, "m"),)
 
 
 @pytest.fixture
 def run(tmp_path: Path) -> RunDirectory:
     """A run without a recording that stopped at 9 s; its name would be a formula to matplotlib."""
-    directory = RunDirectory.create(tmp_path / "runs", "demo $\\frac$", START)
-    with Journal(directory.journal, START) as journal:
-        journal.record(Entry(0.0, "ready", "Checking", TRACKING, 1, 0, command=Twist(0.5)))
-        journal.record(Entry(5.0, "lane ended", TRACKING, "Forward.Exit", 1, 3, SEEN, command=Twist(0.5)))
-        journal.record(Entry(9.0, "fail", "Forward.Exit", "Fault.Recoverable", 1, 3, reason="bus off: gone"))
-    return directory
+    entries = (
+        Entry(0.0, "ready", "Checking", TRACKING, 1, 0, command=Twist(0.5)),
+        Entry(5.0, "lane ended", TRACKING, EXIT, 1, 3, SEEN, command=Twist(0.5)),
+        Entry(9.0, "fail", EXIT, "Fault.Recoverable", 1, 3, reason="bus off: gone"),
+    )
+    return journalled(tmp_path / "runs", "demo $\\frac$", entries)
 
 
 def test_a_plot_lies_in_the_runs_directory(run: RunDirectory, capsys: pytest.CaptureFixture[str]) -> None:

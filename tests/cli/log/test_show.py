@@ -3,7 +3,6 @@
 import io
 import json
 from collections.abc import Callable
-from datetime import UTC, datetime
 from pathlib import Path
 
 import pytest
@@ -14,32 +13,24 @@ from fieldnav.cli.log.tables import runs_table, transitions_table
 from fieldnav.inquiry.outcome import overview
 from fieldnav.journal.directory import RunDirectory
 from fieldnav.journal.entry import Entry
-from fieldnav.journal.journal import Journal, read
+from fieldnav.journal.journal import read
 
-START = datetime(2026, 5, 1, 8, 30, tzinfo=UTC)
-TRACKING, COASTING = "Forward.Follow.Tracking", "Forward.Follow.Coasting"
+from .made import COASTING, TRACKING, journalled
+
 LOST = 210
 Printed = Callable[[], str]
 
 
 @pytest.fixture
-def printed(capsys: pytest.CaptureFixture[str]) -> Printed:
-    return lambda: capsys.readouterr().out
-
-
-@pytest.fixture
-def directory(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> RunDirectory:
+def directory(runs: Path, monkeypatch: pytest.MonkeyPatch) -> RunDirectory:
     """A run in whose second lane the rows are lost and found again and again."""
-    monkeypatch.chdir(tmp_path)
-    directory = RunDirectory.create(tmp_path / "runs", "demo", START)
     monkeypatch.setattr("os.fsync", lambda _: None)  # hundreds of lines need not be on the disk
-    with Journal(directory.journal, START) as journal:
-        journal.record(Entry(0.5, "ready", "Checking", "Forward.Follow.Acquiring", 1, 0))
-        for turn in range(LOST):
-            journal.record(Entry(10 + turn, "rows lost", TRACKING, COASTING, 2, 3))
-            journal.record(Entry(10.5 + turn, "rows found", COASTING, TRACKING, 2, 3))
-        journal.record(Entry(300.0, "pause", TRACKING, "Paused", 2, 3, reason="paused by bob"))
-    return directory
+    entries = [Entry(0.5, "ready", "Checking", "Forward.Follow.Acquiring", 1, 0)]
+    for turn in range(LOST):
+        entries.append(Entry(10 + turn, "rows lost", TRACKING, COASTING, 2, 3))
+        entries.append(Entry(10.5 + turn, "rows found", COASTING, TRACKING, 2, 3))
+    entries.append(Entry(300.0, "pause", TRACKING, "Paused", 2, 3, reason="paused by bob"))
+    return journalled(runs, "demo", entries)
 
 
 def shown(printed: Printed, *options: str) -> list[dict[str, object]]:

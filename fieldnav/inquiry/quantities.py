@@ -1,4 +1,4 @@
-"""The quantities that the report picks out of the evidence, by the names that the states give them."""
+"""Quantities that are picked out of the evidence, by the names that the states give them."""
 
 from collections.abc import Iterable
 
