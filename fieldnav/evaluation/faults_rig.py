@@ -23,6 +23,7 @@ from fieldnav.mission.operating import Operating
 from fieldnav.mission.pace import RunClock
 from fieldnav.mission.tape import Tape
 from fieldnav.mission.taped_bus import TapedBus
+from fieldnav.mission.taped_camera import taped_cameras
 from fieldnav.mission.tick import Tick
 from fieldnav.settings.crop import CropProfile
 from fieldnav.settings.field import FieldSettings
@@ -89,7 +90,7 @@ class Rig:
         self.mission = Mission(
             robot,
             task,
-            tape.cameras(self.cameras, robot),
+            taped_cameras(tape, self.cameras, robot),
             ThorvaldWheels(robot, taped),
             self.paper.journal,
             [self.path, self.newest, tape],

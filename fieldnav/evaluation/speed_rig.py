@@ -21,6 +21,7 @@ from fieldnav.mission.operating import Operating
 from fieldnav.mission.simulated import EPOCH
 from fieldnav.mission.tape import taping
 from fieldnav.mission.taped_bus import TapedBus
+from fieldnav.mission.taped_camera import taped_cameras
 from fieldnav.mission.tick import Observer
 from fieldnav.settings.crop import CropProfile
 from fieldnav.settings.field import FieldSettings
@@ -124,6 +125,6 @@ def rigged(
         journal = stack.enter_context(Journal(folder / "journal.jsonl", EPOCH, tape.line))
         pinholes = {name: robot.cameras.get(name).pinhole() for name in CameraName}
         task = Task(crop, pinholes, Side.RIGHT, field.lanes)
-        eyes, watching = tape.cameras(cameras, robot), [tape, *watch(world)]
+        eyes, watching = taped_cameras(tape, cameras, robot), [tape, *watch(world)]
         mission = Mission(robot, task, eyes, ThorvaldWheels(robot, bus), journal, watching)
         yield Rig(mission, Operating(mission, tape), world, cameras)

@@ -25,6 +25,7 @@ from fieldnav.mission.pace import Pace, RunClock
 from fieldnav.mission.status_board import StatusBoard
 from fieldnav.mission.tape import taping
 from fieldnav.mission.taped_bus import TapedBus
+from fieldnav.mission.taped_camera import taped_cameras
 from fieldnav.mission.tick import Observer
 from fieldnav.operator.confirmation import Confirmations
 from fieldnav.operator.desk import Desk
@@ -96,7 +97,7 @@ def drive(
         mission = Mission(
             order.robot,
             Task(order.crop, pinholes, order.side, order.lanes),
-            tape.cameras(gear.cameras, order.robot),
+            taped_cameras(tape, gear.cameras, order.robot),
             wheels,
             journal,
             [figures, board, tape, *watchers.observers],

@@ -28,6 +28,7 @@ from fieldnav.mission.operating import Operating
 from fieldnav.mission.pictures import OverlayObserver, draw_run
 from fieldnav.mission.tape import taping
 from fieldnav.mission.taped_bus import TapedBus
+from fieldnav.mission.taped_camera import taped_cameras
 from fieldnav.mission.tick import Observer
 from fieldnav.settings.crop import CropProfile
 from fieldnav.settings.field import FieldSettings
@@ -101,7 +102,7 @@ def simulate(run: Run, observers: Sequence[Observer] = ()) -> Simulated:
         world = World(plan, field, run.robot, modules)
         renderer = (SketchRenderer if run.sketch else FieldRenderer)(plan, field, run.crop)
         eyes = {name: SimulatedCamera(name, world, renderer) for name in CameraName}
-        cameras = tape.cameras(eyes, run.robot)
+        cameras = taped_cameras(tape, eyes, run.robot)
         wheels = ThorvaldWheels(run.robot, taped)
         journal = stack.enter_context(Journal(directory.journal, EPOCH, tape.line))
         figures, path = Figures(run.lanes), PathObserver(world)

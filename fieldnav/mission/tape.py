@@ -1,14 +1,12 @@
 """What comes to a mission from outside and what goes out of it, on its way into the recording."""
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from contextlib import contextmanager
 from datetime import UTC, datetime
 from typing import Any
 
 import can
 
-from drivers.compression import compressed
-from drivers.ports import Camera
 from fieldnav.errors import DriverError, OutputError
 from fieldnav.faults import FaultKind
 from fieldnav.journal.directory import RunDirectory
@@ -16,6 +14,7 @@ from fieldnav.journal.ledger import Booking
 from fieldnav.messages import CameraName, Frame
 from fieldnav.mission.taped import TapedFrame, TapedLine, TapedPinhole, TapedRound, TapedTick
 from fieldnav.mission.tick import Tick
+from fieldnav.pinhole import Pinhole
 from fieldnav.recording.recorder import Recorder
 from fieldnav.recording.records import Call, Lost, Seen
 from fieldnav.settings.robot import Robot
@@ -97,15 +96,15 @@ class Tape:
             raise OutputError(said)
         self._recorder.put(TapedTick.of(tick, self._begun_utc))
 
-    def cameras(self, cameras: Mapping[CameraName, Camera], robot: Robot) -> Mapping[CameraName, Camera]:
-        """The same cameras, taped; calibrations are noted."""
-        if self._recorder is None:
-            return cameras
-        for name in cameras:
-            pinhole = robot.cameras.get(name).pinhole()
-            self._recorder.put(TapedPinhole(name, pinhole, self._begun_utc))
-        quality = robot.recording.quality
-        return {name: TapedCamera(name, camera, self, quality) for name, camera in cameras.items()}
+    def sees(self, camera: CameraName, pinhole: Pinhole) -> None:
+        """How a camera sees."""
+        if self._recorder is not None:
+            self._recorder.put(TapedPinhole(camera, pinhole, self._begun_utc))
+
+    @property
+    def runs(self) -> bool:
+        """Whether anybody records."""
+        return self._recorder is not None
 
     def end(self) -> tuple[str, ...]:
         """Write what waits and complete the recording; what a person should know of it. May be repeated."""
@@ -132,28 +131,3 @@ def taping(
         yield tape
     finally:
         tape.end()
-
-
-class TapedCamera:
-    """The Camera port over another; what it gives is taped, and is the picture that the tape holds."""
-
-    def __init__(self, name: CameraName, camera: Camera, tape: Tape, quality: int) -> None:
-        """quality: of the JPEG, for frames that come without theirs."""
-        self._name, self._camera, self._tape, self._quality = name, camera, tape, quality
-        self._given: Frame | None = None
-        self._kept: Frame | None = None
-
-    def latest(self, now_s: float) -> Frame | None:
-        """The newest frame as it is recorded."""
-        try:
-            frame = self._camera.latest(now_s)
-        except DriverError as error:
-            self._tape.lost(self._name, error)
-            raise
-        if frame is not None and frame is not self._given:
-            self._given, self._kept = frame, compressed(frame, self._quality)
-            self._tape.frame(self._kept)
-        return self._kept
-
-    def close(self) -> None:
-        self._camera.close()

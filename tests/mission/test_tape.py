@@ -14,7 +14,8 @@ from fieldnav.faults import FaultKind
 from fieldnav.journal.directory import RunDirectory
 from fieldnav.messages import CameraName, Frame, Motion
 from fieldnav.mission.gate import Passed
-from fieldnav.mission.tape import Tape, TapedCamera, taping
+from fieldnav.mission.tape import Tape, taping
+from fieldnav.mission.taped_camera import TapedCamera
 from fieldnav.mission.tick import Tick
 from fieldnav.recording.recorder import Recorder
 from fieldnav.recording.recording import Recording

@@ -21,6 +21,7 @@ from fieldnav.mission.figures import Figures
 from fieldnav.mission.loop import TICK_S, Mission
 from fieldnav.mission.operating import Operating
 from fieldnav.mission.tape import Tape, taping
+from fieldnav.mission.taped_camera import taped_cameras
 from fieldnav.replay.foreign.beginning import begin, begin_anew
 from fieldnav.replay.foreign.camera import AbsentCamera
 from fieldnav.replay.foreign.ground_speed import GroundSpeed
@@ -68,7 +69,7 @@ def drive(order: Order, tell: Tell | None = None) -> Driven:
         mission = Mission(
             order.robot,
             _task(order),
-            tape.cameras(_both(order, absent), order.robot),
+            taped_cameras(tape, _both(order, absent), order.robot),
             AssumedWheels(order.robot, order.moved),
             journal,
             [figures, sightings, ground, tape],
