@@ -13,6 +13,8 @@ from states.names import Event, Top
 
 HELD_BEFORE_S, NOTED_BEFORE_S = 5.0, 30.0
 """A hold of the wheels, and another note, so long before a stop may have led to it. Our choice."""
+LED_S = 0.2
+"""A transition that follows so soon is a consequence of the one before. Our choice."""
 HELD = "held by the gate"
 UNKNOWN = "no reason is written down"
 KILLED = Trouble(
@@ -53,6 +55,14 @@ def cause_of(line: Line, before: Sequence[Line]) -> Cause:
         said = f"{said}, after {', and '.join(told)}"
         fault = next((found for each in led if (found := fault_of(each))), None)
     return Cause(said, fault, (line, *led))
+
+
+def led_here(line: Line, before: Sequence[Line]) -> Line | None:
+    """The transition without which this one would not have come, if it judged anything: one just before."""
+    last = before[-1] if before else None
+    if last is None or is_note(last) or not last.evidence:
+        return None
+    return last if line.stamp_s - last.stamp_s <= LED_S else None
 
 
 def reason_of(line: Line) -> str:

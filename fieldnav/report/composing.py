@@ -94,6 +94,7 @@ def _told_stop(number: int, stop: Stop, pictures: Pictures, pictured: bool) -> T
         stop=stop,
         rows=evidence_rows(before.evidence, "") if before else evidence_rows(line.evidence, line.event),
         judged_before=before is not None,
+        led=evidence_rows(stop.led.evidence, stop.led.event) if stop.led else (),
         picture=pictures.of_line(line) if pictured else None,
     )
 

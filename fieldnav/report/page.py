@@ -42,13 +42,15 @@ OUTCOME_COLOURS = {
 class ToldStop:
     """A stop with its number, what was judged, and its picture if there is one.
 
-    judged_before: it came from outside, and this is what was judged last before it.
+    judged_before: it came from outside, and this is what was judged last before it. led: what had been judged
+    by the transition just before, of which it is a consequence.
     """
 
     number: int
     stop: Stop
     rows: Sequence[Row]
     judged_before: bool
+    led: Sequence[Row]
     picture: Shown | None
 
 

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from enum import Enum
 
 from fieldnav.faults import FaultKind
-from fieldnav.inquiry.cause import HELD, KILLED, Cause, cause_of, reason_of
+from fieldnav.inquiry.cause import HELD, KILLED, Cause, cause_of, led_here, reason_of
 from fieldnav.inquiry.stops import is_note, is_stop
 from fieldnav.journal.entry import Line
 from fieldnav.report.naming import is_fault, is_latched
@@ -30,13 +30,15 @@ class Kind(Enum):
 class Stop:
     """One line of the journal at which the robot stopped, held, or noted what a person should know.
 
-    seconds: how long it lasted, None where the journal does not tell.
+    seconds: how long it lasted, None where the journal does not tell. led: the transition just before, of
+    which it is a consequence.
     """
 
     kind: Kind
     line: Line
     cause: Cause
     seconds: float | None
+    led: Line | None = None
 
     @property
     def advice(self) -> str:
@@ -53,7 +55,9 @@ def stops_of(lines: Sequence[Line], spans: Sequence[Span], killed_s: float | Non
         kind = _kind(line)
         if kind in (Kind.STOP, Kind.PAUSE):
             before = lines[max(0, index - MOST_BEFORE) : index]
-            found.append(Stop(kind, line, cause_of(line, before), lasted.get(line.seq)))
+            found.append(
+                Stop(kind, line, cause_of(line, before), lasted.get(line.seq), led_here(line, before))
+            )
         elif kind is not None:
             found.append(Stop(kind, line, Cause(reason_of(line), cause_of(line, ()).fault), None))
     if killed_s is not None and lines:

@@ -1,9 +1,11 @@
 """report.html tells what the run's directory knows, whatever is missing or broken in it."""
 
+from fieldnav.journal.entry import Entry
+from fieldnav.messages import Bound, Evidence
 from fieldnav.report.writing import write_report
 
 from .conftest import RunMaker
-from .made_run import BLACK, STORY, STUCK
+from .made_run import BACK, BLACK, STORY, STUCK
 from .shown_page import ShownPage, page_of
 
 LARGEST_BYTES = 3_000_000
@@ -110,3 +112,15 @@ def test_the_same_run_gives_the_same_report(make_run: RunMaker) -> None:
     first = write_report(directory).read_bytes()
 
     assert write_report(directory).read_bytes() == first
+
+
+def test_a_stop_that_follows_at_once_shows_what_led_to_it(make_run: RunMaker) -> None:
+    beside = Evidence("rows where the wheels will go", 1, 0, "rows", bound=Bound.AT_MOST)
+    refused = Entry(25.98, "lane refused", BACK, "Backward.Sidestep.Returning", 2, 3, (beside,))
+    fails = Entry(26.0, "fail", "Backward.Sidestep.Returning", "Fault.Recoverable", 2, 3)
+
+    page = page_of(make_run([*STORY[:7], refused, fails]))
+
+    headings = [row[0] for row in page.rows["stop-1"]]
+    assert f"what {BACK} had judged just before" in headings
+    assert "rows where the wheels will go" in headings

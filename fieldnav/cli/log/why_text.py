@@ -9,12 +9,12 @@ from rich.text import Text
 from fieldnav.cli.log.why_tables import events_table, judged_table, neighbours_table
 from fieldnav.faults import FAULTS
 from fieldnav.inquiry.asked import Asked
+from fieldnav.inquiry.cause import led_here
 from fieldnav.inquiry.chances import chances, deciding
 from fieldnav.inquiry.evidence_rows import evidence_rows
 from fieldnav.inquiry.headline import Headline, Kind
 from fieldnav.inquiry.moment import clock
-from fieldnav.inquiry.stops import is_note
-from fieldnav.journal.entry import Judged, Line
+from fieldnav.journal.entry import Judged
 
 if TYPE_CHECKING:
     from fieldnav.cli.log.recorded import Recorded
@@ -22,8 +22,6 @@ if TYPE_CHECKING:
 STYLES = {Kind.STOPPED: "bold red", Kind.BROKE_OFF: "bold red", Kind.PAUSED: "bold yellow"}
 MOST_CHARTS, WIDEST = 3, 100
 """Quantities drawn besides speed and offset; columns of a chart. Our choice."""
-LED_S = 0.2
-"""A transition that follows so soon is a consequence of the one before. Our choice."""
 
 
 def print_explanation(
@@ -63,19 +61,11 @@ def _print_judged(console: Console, asked: Asked, said: Headline) -> None:
     if others:
         console.print()
         console.print(events_table("did not happen, the nearest first", others))
-    led = _led_here(asked)
+    led = led_here(asked.line, asked.before) if asked.happened else None
     if led is not None:
         title = f"what {led.source} had judged just before, at {clock(led.stamp_s)}"
         console.print()
         console.print(judged_table(title, evidence_rows(led.evidence, led.event)))
-
-
-def _led_here(asked: Asked) -> Line | None:
-    """The transition without which this one would not have come: the one a moment before it."""
-    last = asked.before[-1] if asked.happened and asked.before else None
-    if last is None or is_note(last) or not last.evidence:
-        return None
-    return last if asked.line.stamp_s - last.stamp_s <= LED_S else None
 
 
 def _print_charts(console: Console, asked: Asked, said: Headline, known: "Recorded") -> None:
