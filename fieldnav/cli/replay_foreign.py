@@ -44,7 +44,7 @@ def is_foreign(source: str) -> bool:
     """Whether a name stands for something that is there and that is no run's directory."""
     try:
         path = Path(source)
-        return path.exists() and not (path / "journal.jsonl").exists()
+        return source != "" and path.exists() and not (path / "journal.jsonl").exists()
     except (OSError, ValueError):  # too long, or a null byte
         return False
 

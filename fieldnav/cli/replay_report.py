@@ -11,6 +11,7 @@ from rich.text import Text
 
 from fieldnav.cli.console import table
 from fieldnav.inquiry.moment import clock
+from fieldnav.settings.one_line import one_line
 
 if TYPE_CHECKING:
     from fieldnav.replay.difference import Commands, Difference, Replayed
@@ -22,8 +23,8 @@ COLUMNS = ("time", "lane", "event", "from", "to", "difference")
 def report(done: "Replayed") -> RenderableType:
     """The differences in a table, below them the commands; or that there are none."""
     head = (
-        f"{done.run}: {done.transitions} transitions and {done.rounds} rounds of {clock(done.seconds)} "
-        "replayed"
+        f"{one_line(done.run)}: {done.transitions} transitions and {done.rounds} rounds of "
+        f"{clock(done.seconds)} replayed"
     )
     if done.same:
         return Text.assemble(head, ": ", ("no difference, bit for bit", "bold green"))

@@ -24,6 +24,8 @@ from states.names import Event
 NO_IMAGE = np.empty((0, 0, 3), np.uint8)
 SMALL_BYTES = 4096
 """About what a tick holds in memory while it waits; its picture waits by itself."""
+USUAL_WIRES, WIRE_BYTES = 16, 600
+"""CAN frames of a round that are within that, and what each more holds, as on a bus that is flooded."""
 STOPS = {Event.FAIL.value: Level.ERROR, Event.LATCH.value: Level.FATAL, Event.PAUSE.value: Level.WARNING}
 
 
@@ -42,8 +44,11 @@ class TapedRound:
     lost: list[Lost] = field(default_factory=list)
     wires: list[tuple[bool, can.Message | str]] = field(default_factory=list)
     lines: list[int] = field(default_factory=list)
-    size: int = SMALL_BYTES
     picture: bool = False
+
+    @property
+    def size(self) -> int:
+        return SMALL_BYTES + WIRE_BYTES * max(0, len(self.wires) - USUAL_WIRES)
 
     def messages(self) -> Iterator[Message]:
         record = Round(

@@ -1,8 +1,10 @@
 """A file of a recording opened: by its own index, or by what a survey finds, with its end then mended."""
 
+import errno
 from collections.abc import Callable
 from contextlib import suppress
 from dataclasses import dataclass, field
+from io import SEEK_END
 from pathlib import Path
 from typing import BinaryIO
 
@@ -19,6 +21,9 @@ from fieldnav.recording.walk import read_at
 BLOCK_BYTES = 4096
 """Read at once: heads of records and small messages, not the picture beside them."""
 
+MOST_TORN_BYTES = 1 << 26
+"""What a power loss can tear off the end, several seconds of writing; more is damage, and is not cut off."""
+
 Reading = Callable[[Path], BinaryIO]
 """Opens a file to be read. Raises OSError."""
 
@@ -33,12 +38,14 @@ class Opened:
 
 
 def existing_file(path: Path) -> BinaryIO:
-    """A file to be read by small blocks. Raises OSError."""
+    """A file to be read by small blocks. Raises OSError, also for a pipe, at which it would wait for ever."""
+    if path.exists() and not (path.is_file() or path.is_dir()):
+        raise OSError(errno.EINVAL, "is no file on a disk", str(path))
     return path.open("rb", buffering=BLOCK_BYTES)
 
 
 def opened(path: Path, reading: Reading) -> Opened:
-    """Open a piece; one that broke off gets its end, unless it is being written, or cannot be.
+    """Open a piece; one that broke off gets its end, unless it is being written, damaged, or cannot be.
 
     Raises OSError, and FieldnavError for what is no MCAP file.
     """
@@ -62,7 +69,7 @@ def _mended(path: Path, file: BinaryIO, reading: Reading) -> Opened:
             if summary is not None:  # somebody else has mended it meanwhile
                 return Opened(file, summary)
         found = survey(file)
-        if free:
+        if free and file.seek(0, SEEK_END) - found.whole_to <= MOST_TORN_BYTES:
             with suppress(OSError):  # it is read all the same
                 mend(path, found)
         return Opened(file, found.summary, found.last)

@@ -122,7 +122,10 @@ class PieceReader:
         """Bytes that an index, which may lie, says are there."""
         if min(at, length) < 0 or at + length > self._size:
             raise self._damaged(at)
-        return read_at(self._file, at, length)
+        try:
+            return read_at(self._file, at, length)
+        except OSError as error:
+            raise FieldnavError(f"{self.path}: cannot be read: {error.strerror}") from error
 
     def _damaged(self, at: int) -> FieldnavError:
         return FieldnavError(f"{self.path}: is damaged, or was compressed by others, at byte {at}")

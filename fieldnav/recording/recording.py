@@ -39,6 +39,7 @@ class Recording:
         A file that broke off gets its end, unless it is being written. Raises FieldnavError.
         """
         pieces: list[PieceReader] = []
+        path = directory.recording
         try:
             for path in pieces_in(directory).values():
                 with suppress(FileNotFoundError):  # given up by its recorder meanwhile
@@ -47,7 +48,7 @@ class Recording:
             for piece in pieces:
                 piece.close()
             if isinstance(error, OSError):
-                raise FieldnavError(f"{directory.recording}: cannot be read: {error.strerror}") from error
+                raise FieldnavError(f"{path}: cannot be read: {error.strerror}") from error
             raise
         return cls(directory, pieces) if pieces else None
 

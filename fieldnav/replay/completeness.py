@@ -17,15 +17,22 @@ class Completeness:
         self._missing = dict(lines)
         self._pictures = self._rounds = 0
         self._number: int | None = None
+        self._before: Call | None = None
 
     def take(self, taken: Taken) -> None:
-        """Raises FieldnavError for a recording whose beginning is gone."""
+        """Raises FieldnavError for a recording whose beginning is gone, or that has two."""
         call = taken.round.call
         if self._number is None and call not in (Call.START, Call.TAKE_UP):
             raise FieldnavError(
                 f"the recording begins at {clock(taken.round.now_s)}, its beginning is gone; allowed is one "
                 "that begins with its run (see robot.recording.budget_gb)"
             )
+        if call is Call.START and self._before not in (None, Call.TAKE_UP):
+            raise FieldnavError(
+                f"the recording begins once more at {clock(taken.round.now_s)}; "
+                "allowed are the files of one run"
+            )
+        self._before = call
         if call is not Call.TAKE_UP and self._number is not None:  # a new process counts anew
             self._rounds += max(0, taken.round.number - self._number - 1)
         self._number = taken.round.number

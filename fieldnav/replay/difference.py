@@ -1,6 +1,5 @@
 """What a replay did otherwise than the run that was recorded."""
 
-from collections.abc import Mapping
 from enum import Enum
 
 from pydantic import BaseModel, ConfigDict
@@ -91,7 +90,7 @@ def judged_otherwise(then: Line, now: Line) -> str:
     """What two lines of one transition judge or say differently, in words; empty where nothing."""
     before, after = ({each.name: each for each in line.evidence} for line in (then, now))
     parts = [
-        f"{name} {_value(before, name)} -> {_value(after, name)}"
+        _changed(name, before.get(name), after.get(name))
         for name in dict.fromkeys([*before, *after])
         if before.get(name) != after.get(name)
     ]
@@ -102,8 +101,15 @@ def judged_otherwise(then: Line, now: Line) -> str:
     return "; ".join(parts)
 
 
-def _value(judged: Mapping[str, Judged], name: str) -> str:
-    each = judged.get(name)
+def _changed(name: str, before: Judged | None, after: Judged | None) -> str:
+    """Its value, or, where that reads the same, what else of it has changed."""
+    if _value(before) != _value(after) or before is None or after is None:
+        return f"{name} {_value(before)} -> {_value(after)}"
+    old, new = before.model_dump(mode="json"), after.model_dump(mode="json")
+    return "; ".join(f"{name}: {key} {old[key]} -> {new[key]}" for key in old if old[key] != new[key])
+
+
+def _value(each: Judged | None) -> str:
     if each is None:
         return "not judged"
     limit = "" if each.threshold is None else f" (of {each.threshold:.6g})"

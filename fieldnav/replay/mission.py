@@ -9,7 +9,7 @@ from fieldnav.errors import FieldnavError
 from fieldnav.faults import FaultKind, Trouble
 from fieldnav.journal.entry import Entry, Line, line_of
 from fieldnav.journal.resolved import Settings
-from fieldnav.messages import CameraName, Side
+from fieldnav.messages import CameraName
 from fieldnav.mission.loop import Mission
 from fieldnav.mission.operating import Operating
 from fieldnav.mission.tick import Observer
@@ -17,6 +17,7 @@ from fieldnav.operator.confirmation import Confirmations
 from fieldnav.recording.records import Call, Round
 from fieldnav.replay.again import ReplayedBus, ReplayedCamera
 from fieldnav.replay.following import LEAF_NAMED
+from fieldnav.replay.order import order_of
 from fieldnav.replay.rounds import Taken
 from states.behaviour import Task
 from states.machine import Change
@@ -45,19 +46,32 @@ class ReplayedMission:
     """A mission that is done again, call by call; made anew where the run was taken up by another process."""
 
     def __init__(self, settings: Settings, begun_utc: datetime, observers: Iterable[Observer]) -> None:
+        """Raises FieldnavError for settings that no mission can be made of."""
         self._settings, self._observers = settings, tuple(observers)
+        self._order = order_of(settings.options)
         self._lines = Lines(begun_utc)
         self._cameras = {name: ReplayedCamera(name) for name in CameraName}
         self.bus = ReplayedBus()
-        self._begin()
+        try:
+            self._begin()
+        except FieldnavError:
+            self.close()
+            raise
 
     def again(self, taken: Taken) -> list[Line]:
-        """Do what was done in this round; the lines of the journal that come of it."""
+        """Do what was done in this round; the lines of the journal that come of it.
+
+        Raises FieldnavError for what no mission can have been asked.
+        """
         for camera in self._cameras.values():
             camera.begin(taken.frames, taken.round.lost)
         self.bus.begin(taken.round.wires)
-        with suppress(FieldnavError):  # the mission has broken off, as its last line says
-            self._do(taken.round)
+        try:
+            with suppress(FieldnavError):  # the mission has broken off, as its last line says
+                self._do(taken.round)
+        except Exception as error:
+            call, said = taken.round.call.value, f"{type(error).__name__}: {error}"
+            raise FieldnavError(f"{call} at {taken.round.now_s:g} s cannot be done again: {said}") from error
         return self._lines.taken()
 
     def bring(self, now_s: float, lines: Sequence[Line]) -> bool:
@@ -75,7 +89,7 @@ class ReplayedMission:
 
     def obey(self, obeyed: bool) -> None:
         """Whether the recorded wheels do what this mission tells them; a dry run's never did."""
-        self.mission.commanding = obeyed and not self._silent
+        self.mission.commanding = obeyed and not self._order.dry_run
 
     def close(self) -> None:
         self.bus.shutdown()
@@ -104,19 +118,17 @@ class ReplayedMission:
                 operating.note(now_s, Trouble(round.fault or FaultKind.PROGRAM, round.by))
 
     def _begin(self) -> None:
-        crop, robot, options = self._settings.crop, self._settings.robot, self._settings.options
+        crop, robot, order = self._settings.crop, self._settings.robot, self._order
         pinholes = {name: robot.cameras.get(name).pinhole() for name in CameraName}
-        task = Task(crop, pinholes, Side(str(options["side"])), int(str(options["lanes"])))
-        self._silent = silent = bool(options.get("dry_run"))
-        asked = str(options.get("confirm") or "")
+        task = Task(crop, pinholes, order.side, order.lanes)
         self.mission = Mission(
             robot,
             task,
             self._cameras,
-            ThorvaldWheels(robot, self.bus, listening=silent),
+            ThorvaldWheels(robot, self.bus, listening=order.dry_run),
             self._lines,
             self._observers,
-            confirmations=Confirmations(frozenset(Event(each) for each in asked.split(", ") if each)),
-            commanding=not silent,
+            confirmations=Confirmations(order.asked),
+            commanding=not order.dry_run,
         )
         self._operating = Operating(self.mission)

@@ -19,6 +19,7 @@ from fieldnav.replay.completeness import Completeness
 from fieldnav.replay.difference import Difference, Kind, Replayed, judged_otherwise
 from fieldnav.replay.following import LEAF_NAMED, Following
 from fieldnav.replay.mission import ReplayedMission
+from fieldnav.replay.picture_size import check_pictures
 from fieldnav.replay.rounds import Taken, taken
 from states.names import Event
 
@@ -31,6 +32,8 @@ def replay(
     directory: RunDirectory, then: Settings, now: Settings | None = None, tell: Tell | None = None
 ) -> Replayed:
     """Replay a run; `now`: other settings than it was driven with. Raises FieldnavError."""
+    if now is not None:
+        check_pictures(then, now)
     lines = read(directory.journal)
     if not lines:
         raise FieldnavError(f"{directory.journal}: holds no line; there is nothing to replay")
@@ -53,7 +56,7 @@ class _Replay:
         then: Settings,
         now: Settings,
     ) -> None:
-        self._name, self._recording = directory.path.name, recording
+        self._name, self._recording = directory.path.absolute().name, recording
         self._lines = {line.seq: line for line in lines}
         self._changed = now != then
         self._following, self._notes = Following(), list[Difference]()

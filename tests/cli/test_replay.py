@@ -68,6 +68,8 @@ def test_settings_that_make_the_lane_invisible_end_the_comparison_in_words(
         ("switching.headland_m=9", "headland_m: 9 is not allowed; allowed is a number from 0.1 to 2"),
         ("robot.limits.speed_mps=fast", "limits.speed_mps: 'fast' is not allowed"),
         ("switching.headland_m=[", "'[' is no value"),
+        ("robot.cameras.front.width_px=300", "robot.cameras.front.width_px: 300; allowed is 320, as it was"),
+        ("robot.modules.front_left.node_id=77", "modules.front_left.node_id: 77; allowed is one of"),
     ],
 )
 def test_a_wrong_change_is_refused_in_one_line(
@@ -96,3 +98,41 @@ def test_a_run_without_recording_or_settings_is_refused_in_one_line(
     copy.settings.unlink()
     assert run(["replay", str(copy.path)]) == 2
     assert "settings.yaml" in error()
+
+
+@pytest.mark.parametrize(
+    ("line", "said"),
+    [
+        ("  lanes: many", "settings.yaml: options: lanes: 'many' is not allowed"),
+        ("  lanes: 0", "settings.yaml: options: lanes: 0 is not allowed"),
+        ("  lanes: 1\n  confirm: hats", "settings.yaml: options: confirm: 'hats'; allowed is some of"),
+        ("  lanes: 1\n  confirm: [1]", "settings.yaml: options: confirm: [1] is not allowed"),
+    ],
+)
+def test_options_that_no_run_has_are_refused_in_one_line(
+    line: str, said: str, recorded: RunDirectory, tmp_path: Path, error: Callable[[], str]
+) -> None:
+    copy = RunDirectory(shutil.copytree(recorded.path, tmp_path / "copy"))
+    text = copy.settings.read_text()
+    assert "  lanes: 1\n" in text
+    copy.settings.write_text(text.replace("  lanes: 1", line, 1))
+
+    assert run(["replay", str(copy.path)]) == 2
+    assert said in error()
+
+
+def test_a_run_is_named_on_one_line_also_where_it_is_the_working_folder(
+    recorded: RunDirectory,
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    monkeypatch.chdir(shutil.copytree(recorded.path, tmp_path / "two\nlines"))
+
+    assert run(["replay", "."]) == 0
+    assert capsys.readouterr().out.startswith(r"two\nlines: 6 transitions")
+
+
+def test_no_name_at_all_is_no_recording_of_others(tmp_path: Path, error: Callable[[], str]) -> None:
+    assert run(["replay", "", "--runs", str(tmp_path)]) == 2
+    assert "no run ''" in error()

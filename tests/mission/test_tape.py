@@ -5,6 +5,7 @@ from dataclasses import replace
 from datetime import UTC, datetime
 from pathlib import Path
 
+import can
 import numpy as np
 import pytest
 
@@ -15,6 +16,7 @@ from fieldnav.journal.directory import RunDirectory
 from fieldnav.messages import CameraName, Frame, Motion
 from fieldnav.mission.gate import Passed
 from fieldnav.mission.tape import Tape, taping
+from fieldnav.mission.taped import TapedRound
 from fieldnav.mission.taped_camera import TapedCamera
 from fieldnav.mission.tick import Tick
 from fieldnav.recording.recorder import Recorder
@@ -108,3 +110,11 @@ def test_a_recording_that_fails_is_said_once_and_the_mission_goes_on(
     tape.watch(tick)
     assert "cannot be written" in tape.end()[0]
     assert tape.end() == ()
+
+
+def test_a_round_of_a_flooded_bus_counts_what_it_holds() -> None:
+    quiet, flooded = (TapedRound(Call.TICK, 0.0, 0) for _ in range(2))
+    quiet.wires += [(True, can.Message())] * 8
+    flooded.wires += [(False, can.Message())] * 1000
+
+    assert flooded.size - quiet.size > 500_000

@@ -1,6 +1,7 @@
 """A recording that broke off at any byte opens to its last whole message, and has an end afterwards."""
 
 import fcntl
+import os
 import random
 from collections.abc import Callable
 from pathlib import Path
@@ -15,7 +16,8 @@ from mcap.stream_reader import StreamReader, breakup_chunk
 from fieldnav.errors import FieldnavError
 from fieldnav.journal.directory import RunDirectory
 from fieldnav.recording.message import Topic
-from fieldnav.recording.opening import existing_file
+from fieldnav.recording.opening import MOST_TORN_BYTES, existing_file
+from fieldnav.recording.piece_names import piece_path
 from fieldnav.recording.piece_reader import PieceReader
 from fieldnav.recording.recording import Recording
 from fieldnav.recording.survey import survey
@@ -187,3 +189,38 @@ def test_a_file_that_is_no_recording_is_named(directory: RunDirectory) -> None:
 
     with pytest.raises(FieldnavError, match=r"recording\.mcap: is no recording; allowed is an MCAP file"):
         Recording.open(directory)
+
+
+def test_a_pipe_is_refused_instead_of_waited_for(directory: RunDirectory) -> None:
+    os.mkfifo(directory.recording)
+
+    with pytest.raises(FieldnavError, match=r"recording\.mcap: cannot be read: is no file on a disk"):
+        Recording.open(directory)
+
+
+def test_the_piece_that_cannot_be_read_is_named(
+    directory: RunDirectory, record: Callable[..., None], made_up: Any
+) -> None:
+    record(made_up.items(10))
+    piece_path(directory, 2).mkdir()
+
+    with pytest.raises(FieldnavError, match=r"recording-0002\.mcap: cannot be read: Is a directory"):
+        Recording.open(directory)
+
+
+def test_what_no_power_loss_tears_off_is_not_cut_off(directory: RunDirectory, whole: bytes) -> None:
+    path = directory.recording
+    messages = ends(path)
+    end = messages[50][0]
+    path.write_bytes(whole[:end])
+    os.truncate(path, end + MOST_TORN_BYTES)
+    with path.open("ab") as file:
+        file.write(whole)
+
+    read = as_read(path)
+
+    assert len(read) == 51
+    assert path.stat().st_size == end + MOST_TORN_BYTES + len(whole)
+    os.truncate(path, end + MOST_TORN_BYTES // 2)
+    assert as_read(path) == read
+    assert path.stat().st_size < MOST_TORN_BYTES // 2

@@ -57,3 +57,13 @@ def test_pictures_that_were_left_out_are_counted() -> None:
 def test_a_recording_whose_beginning_gave_way_to_the_budget_is_refused() -> None:
     with pytest.raises(FieldnavError, match=r"begins at 0:00\.1, its beginning is gone"):
         said(a_round(7))
+
+
+def test_files_of_two_runs_are_refused() -> None:
+    with pytest.raises(FieldnavError, match="begins once more at 0:00"):
+        said(a_round(0, Call.START), a_round(1), a_round(0, Call.START))
+
+
+def test_a_process_that_died_before_it_started_is_no_second_beginning() -> None:
+    taken_up = a_round(0, Call.TAKE_UP)
+    assert said(a_round(0, Call.START, (0, 1, 2)), taken_up, taken_up, a_round(1, Call.START)) == []

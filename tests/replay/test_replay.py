@@ -80,6 +80,21 @@ def test_a_quantity_that_the_journal_has_otherwise_is_found(recorded: RunDirecto
     assert "probability that the lane has ended" in done.differences[0].said
 
 
+def test_a_condition_that_decided_another_event_then_is_told_by_that(
+    recorded: RunDirectory, tmp_path: Path
+) -> None:
+    copy = RunDirectory(shutil.copytree(recorded.path, tmp_path / "run"))
+    text = copy.journal.read_text()
+    name = '"fires": "lane ended"'
+    assert name in text
+    copy.journal.write_text(text.replace(name, '"fires": "rows lost"', 1))
+
+    done = replay(copy, read_settings(copy.settings))
+
+    assert [each.kind for each in done.differences] == [Kind.JUDGED]
+    assert "fires rows lost -> lane ended" in done.differences[0].said
+
+
 def test_a_recording_that_broke_off_is_replayed_as_far_as_it_goes(
     recorded: RunDirectory, tmp_path: Path
 ) -> None:
