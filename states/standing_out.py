@@ -1,7 +1,6 @@
 """Whether the next lane stands out among the rows that pass: likely in its place, and all of it seen."""
 
 from fieldnav.messages import Bound, Evidence
-from fieldnav.perception.sidestep.lane_odds import OFF_EXPECTED, widest_pitch_m
 from fieldnav.perception.sidestep.next_lane import NextLane
 from fieldnav.perception.sidestep.passing_rows import Crossing
 from states.behaviour import Task
@@ -45,9 +44,7 @@ def _believed(task: Task, there: NextLane, rows: Crossing) -> tuple[Evidence, ..
 def _where(task: Task, lane: LaneMemory, there: NextLane, believed: bool) -> tuple[Evidence, ...]:
     """Whether it stands where the next lane may be; further off it is another one, or none."""
     wanted, crossed, fails = expected(task, lane), Event.ROWS_CROSSED, Event.FAIL
-    off_m, most_m = there.pitch_m, widest_pitch_m(task.crop)
-    if wanted.pitch_m is not None:
-        off_m, most_m = abs(there.pitch_m - wanted.pitch_m), OFF_EXPECTED * wanted.spread_m
+    off_m, most_m = wanted.off_m(there.pitch_m, task.crop)
     return (
         Evidence("its distance from the old lane", there.pitch_m, wanted.pitch_m, "m"),
         Evidence("off where the next lane may be by", off_m, most_m, "m", crossed, Bound.AT_MOST),

@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 
 from fieldnav.messages import Direction
-from states.names import Event, Fault, Follow, Path, Phase, Sidestep, Top
+from states.names import Event, Fault, Follow, Path, Phase, Sidestep, Top, text
 
 IDLE: Path = (Top.IDLE,)
 CHECKING: Path = (Top.CHECKING,)
@@ -62,6 +62,9 @@ LANE_LEAVES = _lane_leaves(Direction.FORWARD) + _lane_leaves(Direction.BACKWARD)
 """The states in which the wheels may move, and no others."""
 
 LEAVES: tuple[Path, ...] = (IDLE, CHECKING, RESUMING, *LANE_LEAVES, PAUSED, RECOVERABLE, LATCHED, FINISHED)
+
+LEAF_NAMED: dict[str, Path] = {text(leaf): leaf for leaf in LEAVES}
+"""By the names that journals and ledgers have."""
 
 TRANSITIONS: tuple[Transition, ...] = (
     Transition(IDLE, Event.START, CHECKING),

@@ -5,10 +5,9 @@ from fieldnav.inquiry.spent import Account, account
 from fieldnav.journal.directory import RunDirectory
 from fieldnav.journal.journal import read
 from states.drawing.paint import Made, Paint, Visit
-from states.names import Event, text
-from states.table import LEAVES
+from states.names import Event
+from states.table import LEAF_NAMED
 
-LEAF_OF = {text(leaf): leaf for leaf in LEAVES}
 EVENT_OF = {event.value: event for event in Event}
 
 
@@ -20,15 +19,17 @@ def paint_of(directory: RunDirectory) -> Paint:
 def paint(told: Account, ended: Overview) -> Paint:
     """An account in the table's own states and events; those of another version are counted as unknown."""
     visits = {
-        LEAF_OF[state]: Visit(spent.seconds, spent.entries)
+        LEAF_NAMED[state]: Visit(spent.seconds, spent.entries)
         for state, spent in told.states.items()
-        if state in LEAF_OF
+        if state in LEAF_NAMED
     }
     made: dict[Made, int] = {}
     unknown = 0
     for (source, event, target), count in told.made.items():
-        if source in LEAF_OF and event in EVENT_OF and target in LEAF_OF:
-            made[LEAF_OF[source], EVENT_OF[event], LEAF_OF[target]] = count
+        if source in LEAF_NAMED and event in EVENT_OF and target in LEAF_NAMED:
+            made[LEAF_NAMED[source], EVENT_OF[event], LEAF_NAMED[target]] = count
         else:
             unknown += count
-    return Paint(ended.run, ended.outcome.value, ended.reason, visits, made, LEAF_OF.get(told.last), unknown)
+    return Paint(
+        ended.run, ended.outcome.value, ended.reason, visits, made, LEAF_NAMED.get(told.last), unknown
+    )

@@ -84,7 +84,7 @@ class Rig:
             name: FaultyCamera(name, SimulatedCamera(name, self.world, renderer)) for name in CameraName
         }
         self.paper, self.path = PaperTrail(folder, BEGUN, tape), PathObserver(self.world)
-        pinholes = {name: robot.cameras.get(name).pinhole() for name in CameraName}
+        pinholes = robot.cameras.pinholes()
         task = Task(setting.crop, pinholes, Side.RIGHT, field.lanes)
         self.newest = Newest()
         self.mission = Mission(

@@ -93,7 +93,7 @@ class StandingMission:
         self.left_out = random.choice((frozenset(), COMMANDS))
         self.journal = Journal(folder / "journal.jsonl", EPOCH)
         self._modules = SimulatedModules(robot, ends.modules) if random.getrandbits(1) else None
-        pinholes = {name: robot.cameras.get(name).pinhole() for name in CameraName}
+        pinholes = robot.cameras.pinholes()
         cameras, wheels = dict.fromkeys(CameraName, BlindCamera()), make_wheels(robot, ends.host)
         task = Task(crop, pinholes, Side.RIGHT, lanes=1)
         self._mission = Mission(robot, task, cameras, wheels, self.journal, [self])

@@ -50,7 +50,7 @@ class TrackingMission:
         self._world = World(plan, field, robot, modules)
         renderer = SketchRenderer(plan, field, crop)
         cameras = {name: SimulatedCamera(name, self._world, renderer) for name in CameraName}
-        pinholes = {name: robot.cameras.get(name).pinhole() for name in CameraName}
+        pinholes = robot.cameras.pinholes()
         task, wheels = Task(crop, pinholes, Side.RIGHT, 1), make_wheels(robot, ends.host)
         self._mission = Mission(robot, task, cameras, wheels, journal, [self])
         self._limit_mps = robot.limits.speed_mps

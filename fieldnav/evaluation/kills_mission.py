@@ -73,7 +73,7 @@ def _mission(
     journal: Journal,
     ledger: Ledger,
 ) -> Mission:
-    pinholes = {name: setup.robot.cameras.get(name).pinhole() for name in CameraName}
+    pinholes = setup.robot.cameras.pinholes()
     task = Task(setup.crop, pinholes, setup.side, setup.lanes)
     return Mission(setup.robot, task, cameras, wheels, journal, ledger=ledger)
 

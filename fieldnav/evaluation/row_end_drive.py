@@ -82,7 +82,7 @@ def drive_to_end(run: LaneRun) -> LaneEnding:
     world = TickingWorld(plan, field, robot, wheels)
     renderer = SketchRenderer(plan, field, run.crop)
     cameras = {name: SimulatedCamera(name, world, renderer) for name in CameraName}
-    pinholes = {name: robot.cameras.get(name).pinhole() for name in CameraName}
+    pinholes = robot.cameras.pinholes()
     task, witness = Task(run.crop, pinholes, Side.RIGHT, lanes=1), Witness(world)
     with TemporaryDirectory(prefix="fieldnav-") as folder, Journal(Path(folder) / "j", EPOCH) as journal:
         mission = Mission(robot, task, cameras, wheels, journal, [witness])

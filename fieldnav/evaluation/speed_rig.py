@@ -123,7 +123,7 @@ def rigged(
         world, renderer = World(plan, field, robot, modules), draw(plan, field, crop)
         cameras = {name: DrawnBefore(SimulatedCamera(name, world, renderer), quality) for name in CameraName}
         journal = stack.enter_context(Journal(folder / "journal.jsonl", EPOCH, tape.line))
-        pinholes = {name: robot.cameras.get(name).pinhole() for name in CameraName}
+        pinholes = robot.cameras.pinholes()
         task = Task(crop, pinholes, Side.RIGHT, field.lanes)
         eyes, watching = taped_cameras(tape, cameras, robot), [tape, *watch(world)]
         mission = Mission(robot, task, eyes, ThorvaldWheels(robot, bus), journal, watching)

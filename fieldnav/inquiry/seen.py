@@ -1,9 +1,18 @@
 """What was made of a recorded picture, ready to be drawn into it."""
 
+from fieldnav.journal.entry import Line
 from fieldnav.journal.overlay import OverlayView
 from fieldnav.messages import RowLine, Twist
 from fieldnav.recording.picture import Picture
-from fieldnav.recording.records import Stepped
+from fieldnav.recording.records import Seen, Stepped
+
+
+def seen_of(line: Line) -> Seen | None:
+    """The frame that a line was decided on; None where none is named, or not as a journal names it."""
+    try:
+        return Seen.model_validate(line.frame) if line.frame else None
+    except ValueError:
+        return None
 
 
 def seen_in(

@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 from datetime import datetime, timedelta
 from math import isfinite
-from typing import Any
+from typing import Any, Self
 
 from pydantic import BaseModel, ConfigDict
 
@@ -46,6 +46,11 @@ class Judged(BaseModel):
     fires: str = ""
     bound: Bound = Bound.AT_LEAST
     alone: bool = False
+
+    @classmethod
+    def of(cls, evidence: Evidence) -> Self:
+        """A quantity as it will be read back."""
+        return cls.model_validate(judged_as_json(evidence))
 
     @property
     def margin(self) -> float | None:

@@ -10,12 +10,10 @@ from states.behaviour import Task
 from states.behaviours import Behaviours
 from states.names import Path, Phase, text
 from states.place import Place
-from states.table import FINISHED, LANE_LEAVES
+from states.table import FINISHED, LANE_LEAVES, LEAF_NAMED
 
 ALONG_M, ASIDE_M = 0.25, 0.04
 """Travel after which the place is written down again: sideways rows lie a few decimetres apart."""
-
-LEAF_NAMED = {text(leaf): leaf for leaf in LANE_LEAVES}
 
 
 class Bookkeeping:
@@ -70,7 +68,8 @@ class Bookkeeping:
 
 def place_of(booking: Booking) -> Place:
     """The place that a line of the ledger means. Raises FieldnavError for a state that there is not."""
-    if booking.state not in LEAF_NAMED:
+    leaf = LEAF_NAMED.get(booking.state)
+    if leaf not in LANE_LEAVES:
         raise FieldnavError(f"ledger: state '{booking.state}' is none of a lane's")
     known = booking.model_dump(exclude={"stamp_s", "state", "side", "lanes", "finished"})
-    return Place(leaf=LEAF_NAMED[booking.state], **known)
+    return Place(leaf=leaf, **known)

@@ -15,7 +15,7 @@ from fieldnav.journal.directory import RunDirectory
 from fieldnav.journal.journal import Journal
 from fieldnav.journal.ledger import Booking, Ledger
 from fieldnav.journal.summary import Headland, Summary, write_summary
-from fieldnav.messages import CameraName, Side
+from fieldnav.messages import Side
 from fieldnav.mission.driving import Driving
 from fieldnav.mission.figures import Figures
 from fieldnav.mission.interruption import Interruption
@@ -93,7 +93,7 @@ def drive(
         wheels = ThorvaldWheels(order.robot, taped, listening=order.dry_run)
         figures = Figures(order.lanes, order.resumed.done if order.resumed else ())
         board = StatusBoard(directory.path.name, order.lanes)
-        pinholes = {name: order.robot.cameras.get(name).pinhole() for name in CameraName}
+        pinholes = order.robot.cameras.pinholes()
         mission = Mission(
             order.robot,
             Task(order.crop, pinholes, order.side, order.lanes),

@@ -109,7 +109,7 @@ def simulate(run: Run, observers: Sequence[Observer] = ()) -> Simulated:
         watching: list[Observer] = [figures, path, tape, *observers]
         if run.video:
             watching.append(stack.enter_context(OverlayObserver(directory.overlay, run.robot, run.lanes)))
-        pinholes = {name: run.robot.cameras.get(name).pinhole() for name in CameraName}
+        pinholes = run.robot.cameras.pinholes()
         task = Task(run.crop, pinholes, run.side, run.lanes)
         ledger = stack.enter_context(Ledger(directory.ledger))
         mission = Mission(run.robot, task, cameras, wheels, journal, watching, ledger)

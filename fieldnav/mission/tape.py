@@ -61,7 +61,7 @@ class Tape:
     def frame(self, frame: Frame) -> None:
         """A frame was taken in."""
         if self._recorder is not None and self._round is not None:
-            seen = Seen(camera=frame.camera, sequence=frame.sequence, stamp_s=frame.stamp_s)
+            seen = Seen.of(frame)
             self._recorder.put(TapedFrame(seen, frame.jpeg or b"", self._begun_utc))
             self._round.frames.append(seen)
 

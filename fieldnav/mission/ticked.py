@@ -2,7 +2,7 @@
 
 from math import isfinite
 
-from fieldnav.journal.entry import Judged, judged_as_json
+from fieldnav.journal.entry import Judged
 from fieldnav.messages import Wheel
 from fieldnav.mission.tick import Tick
 from fieldnav.recording.records import Line, Module, Seen, Stepped, Ticked
@@ -45,10 +45,8 @@ def stepped(tick: Tick) -> Stepped:
         forward_m=tick.forward_m,
         event=step.event.value if step.event else "",
         reason=step.reason,
-        evidence=tuple(Judged.model_validate(judged_as_json(each)) for each in step.evidence),
-        frame=Seen(camera=sight.frame.camera, sequence=sight.frame.sequence, stamp_s=sight.frame.stamp_s)
-        if sight
-        else None,
+        evidence=tuple(map(Judged.of, step.evidence)),
+        frame=Seen.of(sight.frame) if sight else None,
         rows=tuple(
             Line(x_top_px=row.x_top_px, x_bottom_px=row.x_bottom_px, confidence=row.confidence)
             for row in (sight.rows if sight else ())

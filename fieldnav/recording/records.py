@@ -10,7 +10,7 @@ from pydantic import BaseModel, ConfigDict
 from fieldnav.faults import FaultKind
 from fieldnav.journal.entry import Judged
 from fieldnav.journal.ledger import Booking
-from fieldnav.messages import STANDSTILL, CameraName, Twist, Wheel
+from fieldnav.messages import STANDSTILL, CameraName, Frame, Twist, Wheel
 
 
 class Record(BaseModel):
@@ -39,6 +39,11 @@ class Seen(Record):
     camera: CameraName
     sequence: int
     stamp_s: float
+
+    @classmethod
+    def of(cls, frame: Frame) -> Self:
+        """Of a frame itself."""
+        return cls(camera=frame.camera, sequence=frame.sequence, stamp_s=frame.stamp_s)
 
 
 class Lost(Record):

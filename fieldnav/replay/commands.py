@@ -3,7 +3,7 @@
 from collections.abc import Iterator
 
 from fieldnav.inquiry.chances import chances
-from fieldnav.journal.entry import Judged, judged_as_json
+from fieldnav.journal.entry import Judged
 from fieldnav.messages import Evidence
 from fieldnav.mission.tick import Tick
 from fieldnav.recording.records import Ticked
@@ -42,7 +42,7 @@ class CommandWatch:
 
     def lacked(self, event: str) -> str:
         """What an event lacked at the last look, in words; empty where that is not known."""
-        judged = [Judged.model_validate(judged_as_json(each)) for each in self._judged]
+        judged = [Judged.of(each) for each in self._judged]
         for chance in chances(judged):
             if chance.event == event and not chance.holds:
                 (least,) = chance.deciding

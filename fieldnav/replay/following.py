@@ -12,10 +12,8 @@ from types import MappingProxyType
 
 from fieldnav.journal.entry import Line
 from fieldnav.replay.difference import Difference, Kind, judged_otherwise
-from states.names import Event, Path, Phase, text
-from states.table import LANE_LEAVES, LEAVES
-
-LEAF_NAMED = {text(leaf): leaf for leaf in LEAVES}
+from states.names import Event, Path, Phase
+from states.table import LANE_LEAVES, LEAF_NAMED
 
 MOST_APART = 2
 """Transitions that the run may be ahead; the robot then does another thing than the replay thinks."""

@@ -16,12 +16,12 @@ from fieldnav.mission.tick import Observer
 from fieldnav.operator.confirmation import Confirmations
 from fieldnav.recording.records import Call, Round
 from fieldnav.replay.again import ReplayedBus, ReplayedCamera
-from fieldnav.replay.following import LEAF_NAMED
 from fieldnav.replay.order import order_of
 from fieldnav.replay.rounds import Taken
 from states.behaviour import Task
 from states.machine import Change
 from states.names import Event
+from states.table import LEAF_NAMED
 
 
 class Lines:
@@ -119,7 +119,7 @@ class ReplayedMission:
 
     def _begin(self) -> None:
         crop, robot, order = self._settings.crop, self._settings.robot, self._order
-        pinholes = {name: robot.cameras.get(name).pinhole() for name in CameraName}
+        pinholes = robot.cameras.pinholes()
         task = Task(crop, pinholes, order.side, order.lanes)
         self.mission = Mission(
             robot,

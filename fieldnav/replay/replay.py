@@ -17,11 +17,12 @@ from fieldnav.recording.recording import Recording
 from fieldnav.replay.commands import CommandWatch
 from fieldnav.replay.completeness import Completeness
 from fieldnav.replay.difference import Difference, Kind, Replayed, judged_otherwise
-from fieldnav.replay.following import LEAF_NAMED, Following
+from fieldnav.replay.following import Following
 from fieldnav.replay.mission import ReplayedMission
 from fieldnav.replay.picture_size import check_pictures
 from fieldnav.replay.rounds import Taken, taken
 from states.names import Event
+from states.table import LEAF_NAMED
 
 EVENTS = {event.value for event in Event}
 Tell = Callable[[float, float], None]

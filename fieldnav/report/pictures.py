@@ -5,7 +5,7 @@ from math import inf
 
 from fieldnav.errors import FieldnavError
 from fieldnav.inquiry.moment import clock
-from fieldnav.inquiry.seen import seen_in
+from fieldnav.inquiry.seen import seen_in, seen_of
 from fieldnav.journal.entry import Line
 from fieldnav.journal.overlay import draw_overlay
 from fieldnav.messages import STANDSTILL, Twist
@@ -49,7 +49,7 @@ class Pictures:
     def of_line(self, line: Line) -> Shown | None:
         """The frame that a line was decided on; where it names none, the newest before it, judged or not."""
         try:
-            step, seen = self._step_of(line), _seen(line)
+            step, seen = self._step_of(line), seen_of(line)
             found = (self._picture(seen) if seen else None) or self._newest(line.stamp_s, step)
             same = step if step and found and _is(step.frame, found.seen) else None
             moment = Moment(line.stamp_s, line.source, line.lane, self._command(line.stamp_s))
@@ -72,7 +72,7 @@ class Pictures:
             for step in self._recording.steps(line.stamp_s - BEFORE_S, line.stamp_s + AT_ONCE_S)
             if step.frame is not None
         ]
-        seen = _seen(line)
+        seen = seen_of(line)
         same = [step for step in steps if seen and _is(step.frame, seen)]
         return same[-1] if same else (steps[-1] if steps and seen is None else None)
 
@@ -106,14 +106,6 @@ def _shown(found: Picture, step: Stepped | None, moment: Moment) -> Shown:
 def _ago(ago_s: float) -> str:
     """How much older than the moment a picture is, where that is worth a word."""
     return f", {ago_s:.1f} s before" if 1 <= ago_s < inf else ""
-
-
-def _seen(line: Line) -> Seen | None:
-    """The frame of a line; None where none is named, or not as a journal names it."""
-    try:
-        return Seen.model_validate(line.frame) if line.frame else None
-    except ValueError:
-        return None
 
 
 def _is(frame: Seen | None, seen: Seen) -> bool:

@@ -64,6 +64,10 @@ class Cameras(Settings):
     def get(self, name: CameraName) -> CameraSettings:
         return self.front if name is CameraName.FRONT else self.rear
 
+    def pinholes(self) -> dict[CameraName, Pinhole]:
+        """How each of them sees."""
+        return {name: self.get(name).pinhole() for name in CameraName}
+
 
 class CameraLimits(Settings):
     """How far a camera may look away from its file's values, by what the rows tell, before it is reported."""

@@ -16,8 +16,17 @@ LARGEST_FILE_BYTES = 100_000
 
 def parse_mapping(text: str, label: str) -> dict[Hashable, Any]:
     """The mapping that a YAML text holds; `label` names the file. Raises SettingsError."""
+    document = parse(text, label)
+    if not isinstance(document, dict):
+        found = "is empty" if document is None else f"holds a {_kind(document)}"
+        raise SettingsError(f"{label}: {found}; allowed is a mapping of keys to values, 'key: value' a line")
+    return document
+
+
+def parse(text: str, label: str) -> Any:
+    """What a YAML text holds; `label` says where it stands. Raises SettingsError."""
     try:
-        document = yaml.load(text, Loader=StrictLoader)
+        return yaml.load(text, Loader=StrictLoader)
     except RefusedError as error:
         raise SettingsError(f"{label}: {_place(error)}{one_line(str(error.problem))}") from error
     except yaml.MarkedYAMLError as error:
@@ -28,10 +37,6 @@ def parse_mapping(text: str, label: str) -> dict[Hashable, Any]:
     except (ArithmeticError, AttributeError, LookupError, RecursionError, TypeError, ValueError) as error:
         # The library lets these through where a value looks like a number and is none.
         raise SettingsError(f"{label}: is not valid YAML: {_in_one_line(error)}") from error
-    if not isinstance(document, dict):
-        found = "is empty" if document is None else f"holds a {_kind(document)}"
-        raise SettingsError(f"{label}: {found}; allowed is a mapping of keys to values, 'key: value' a line")
-    return document
 
 
 def read_text(path: str) -> str:

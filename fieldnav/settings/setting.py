@@ -3,10 +3,9 @@
 from collections.abc import Iterable
 from typing import Any, TypeVar
 
-import yaml
-
 from fieldnav.errors import SettingsError
 from fieldnav.settings.crop import CropProfile
+from fieldnav.settings.documents import parse
 from fieldnav.settings.loading import checked
 from fieldnav.settings.model import Settings
 from fieldnav.settings.one_line import one_line
@@ -44,7 +43,7 @@ def changed(settings: Model, key: str, text: str) -> Model:
         known = ", ".join(place if isinstance(place, dict) else document)
         raise SettingsError(f"--set {shortened(one_line(key))}: is no key; allowed is one of {known}")
     try:
-        place[last] = yaml.safe_load(text)
-    except yaml.YAMLError as error:
+        place[last] = parse(text, "--set")
+    except SettingsError as error:
         raise SettingsError(f"--set {key}: '{shortened(one_line(text))}' is no value") from error
     return checked(type(settings), document, "--set")

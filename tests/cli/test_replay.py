@@ -68,6 +68,7 @@ def test_settings_that_make_the_lane_invisible_end_the_comparison_in_words(
         ("switching.headland_m=9", "headland_m: 9 is not allowed; allowed is a number from 0.1 to 2"),
         ("robot.limits.speed_mps=fast", "limits.speed_mps: 'fast' is not allowed"),
         ("switching.headland_m=[", "'[' is no value"),
+        ("switching.headland_m=&a [*a]", "'&a [*a]' is no value"),
         ("robot.cameras.front.width_px=300", "robot.cameras.front.width_px: 300; allowed is 320, as it was"),
         ("robot.modules.front_left.node_id=77", "modules.front_left.node_id: 77; allowed is one of"),
     ],

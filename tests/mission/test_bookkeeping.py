@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 from fieldnav.errors import FieldnavError
 from fieldnav.estimation.lane_end import LaneEnd
 from fieldnav.journal.ledger import Booking, Ledger, last_booking
-from fieldnav.messages import CameraName, Direction, Side
+from fieldnav.messages import Direction, Side
 from fieldnav.mission.bookkeeping import ALONG_M, ASIDE_M, Bookkeeping, place_of
 from fieldnav.mission.travel import Travel
 from fieldnav.settings.crop import CropProfile
@@ -35,7 +35,7 @@ class Books:
     """The books of a mission that stands where the test says."""
 
     def __init__(self, path: Path, robot: Robot, crop: CropProfile) -> None:
-        pinholes = {name: robot.cameras.get(name).pinhole() for name in CameraName}
+        pinholes = robot.cameras.pinholes()
         task = Task(crop, pinholes, Side.LEFT, lanes=9)
         self.path, self.task = path, task
         self.ledger = Ledger(path)
@@ -158,7 +158,7 @@ def test_writing_a_place_down_judges_nothing_of_the_lane(books: Books) -> None:
 
 
 def test_a_mission_without_a_ledger_still_knows_its_place(shipped: SimpleNamespace) -> None:
-    pinholes = {name: shipped.robot.cameras.get(name).pinhole() for name in CameraName}
+    pinholes = shipped.robot.cameras.pinholes()
     task = Task(shipped.crop, pinholes, Side.LEFT, lanes=1)
     books = Bookkeeping(None, task, Behaviours(task), Travel(shipped.robot))
 

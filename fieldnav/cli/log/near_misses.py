@@ -5,11 +5,11 @@ from typing import TYPE_CHECKING
 
 from fieldnav.errors import FieldnavError
 from fieldnav.journal.directory import RunDirectory
+from fieldnav.recording.piece_names import pieces_in
 
 if TYPE_CHECKING:
     from fieldnav.inquiry.near_misses import NearMiss
 
-PIECES = "recording*.mcap"
 MOST = 10
 
 
@@ -23,7 +23,7 @@ class Missed:
 
 def is_recorded(directory: RunDirectory) -> bool:
     """Whether there is a file of a recording; told without what it takes to read one."""
-    return any(directory.path.glob(PIECES))
+    return bool(pieces_in(directory))
 
 
 def near_misses(directory: RunDirectory) -> Missed:

@@ -8,7 +8,7 @@ import numpy as np
 from fieldnav.cli.log.chart import Course
 from fieldnav.inquiry.quantities import OFFSET
 from fieldnav.journal.directory import RunDirectory
-from fieldnav.journal.entry import Judged, Line
+from fieldnav.journal.entry import Judged
 from fieldnav.recording.picture import Picture
 from fieldnav.recording.recording import Recording
 from fieldnav.recording.records import Gap, Seen, Stepped, Ticked
@@ -81,8 +81,3 @@ def _course(steps: tuple[Stepped, ...], name: str, threshold: float | None, unit
     if len(found) > 1:
         at_s, value = np.array(found, dtype=float).T
         yield Course(name, at_s, value, threshold, unit)
-
-
-def seen_of(line: Line) -> Seen | None:
-    """The frame that a line of the journal was decided on."""
-    return Seen.model_validate(line.frame) if line.frame else None

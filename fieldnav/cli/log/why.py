@@ -60,7 +60,8 @@ def _recorded(directory: RunDirectory, asked: Asked) -> "tuple[Recorded | None, 
     """The half minute before, or why nothing is known of it."""
     if not is_recorded(directory):
         return None, "this run has no recording: the journal alone is shown"
-    from fieldnav.cli.log.recorded import recorded, seen_of  # noqa: PLC0415 - most of a second to import
+    from fieldnav.cli.log.recorded import recorded  # noqa: PLC0415 - most of a second to import
+    from fieldnav.inquiry.seen import seen_of  # noqa: PLC0415
 
     try:
         known = recorded(directory, asked.at_s, seen_of(asked.line) if asked.happened else None)

@@ -37,11 +37,11 @@ class Expected:
     spread_m: float
     longest_m: float
 
-    def here(self, pitch_m: float, crop: CropProfile) -> bool:
-        """Whether this is where the next lane may be; further off it is another one, or none."""
+    def off_m(self, pitch_m: float, crop: CropProfile) -> tuple[float, float]:
+        """How far off a lane at this distance stands, and at most may; further off is another, or none."""
         if self.pitch_m is None:
-            return pitch_m <= widest_pitch_m(crop)
-        return abs(pitch_m - self.pitch_m) <= OFF_EXPECTED * self.spread_m
+            return pitch_m, widest_pitch_m(crop)
+        return abs(pitch_m - self.pitch_m), OFF_EXPECTED * self.spread_m
 
 
 def widest_pitch_m(crop: CropProfile) -> float:

@@ -127,7 +127,7 @@ def _both(order: Order, absent: dict[CameraName, AbsentCamera]) -> dict[CameraNa
 
 
 def _task(order: Order) -> Task:
-    pinholes = {name: order.robot.cameras.get(name).pinhole() for name in CameraName}
+    pinholes = order.robot.cameras.pinholes()
     return Task(order.crop, pinholes, order.side, order.lanes)
 
 

@@ -34,7 +34,7 @@ class GroundSpeed:
     """An observer of the mission; compares the frames that were looked at."""
 
     def __init__(self, robot: Robot) -> None:
-        self._cameras = {name: robot.cameras.get(name).pinhole() for name in CameraName}
+        self._cameras = robot.cameras.pinholes()
         self._before: _Before | None = None
         self._shares: list[float] = []
 
