@@ -26,6 +26,8 @@ class FaultKind(Enum):
     CAMERA_SLOW = "camera slow"
     CAMERA_SIZE = "camera of the wrong size"
     CAMERA_TURNED = "camera upside down"
+    CAMERA_BLIND = "camera cannot show crop"
+    CAMERA_PAST = "camera shows the past"
     FRAMES_LATE = "frames late"
     MODULE_LATE = "module late"
     MODULE_SILENT = "module silent"
@@ -83,6 +85,16 @@ FAULTS: dict[FaultKind, Declared] = {
         Reaction.LATCH,
         "the ground moves through the picture against what the wheels say",
         "hang it the right way up, or give front and rear their own sources",
+    ),
+    FaultKind.CAMERA_BLIND: Declared(
+        Reaction.HOLD,
+        "the picture has no colour, or plants that must be in view are gone",
+        "clean the lens, turn the camera's night mode off",
+    ),
+    FaultKind.CAMERA_PAST: Declared(
+        Reaction.STOP,
+        "the ground in the pictures stands still, jumps, or moves later than the wheels say",
+        "restart the camera and what brings its pictures; look for a buffer or a slow network",
     ),
     FaultKind.FRAMES_LATE: Declared(
         Reaction.HOLD,

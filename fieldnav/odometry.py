@@ -1,10 +1,11 @@
 """A pose on the ground, and the poses that a robot lately had: dead reckoning from twists."""
 
-from collections import deque
 from dataclasses import dataclass
 from math import cos, sin
 
-from fieldnav.messages import Twist
+import numpy as np
+
+from fieldnav.messages import Floats, Twist
 
 
 @dataclass(frozen=True, slots=True)
@@ -39,19 +40,26 @@ class Track:
     """The poses of the last moments, so that a frame can be given the place where it was taken."""
 
     def __init__(self, kept: int) -> None:
-        self._poses: deque[tuple[float, Pose]] = deque(maxlen=kept)
+        self._kept, self._end = kept, 0
+        # Twice as long as what is kept: a stretch without a break is at hand, and is seldom moved.
+        self._table: Floats = np.zeros((4, 2 * kept))
 
     def add(self, stamp_s: float, pose: Pose) -> None:
         """Take in the pose at a time later than all before."""
-        self._poses.append((stamp_s, pose))
+        if self._end == self._table.shape[1]:
+            self._table[:, : self._kept] = self._table[:, -self._kept :]
+            self._end = self._kept
+        self._table[:, self._end] = stamp_s, pose.x_m, pose.y_m, pose.heading_rad
+        self._end += 1
 
     def at(self, stamp_s: float) -> Pose:
         """The pose at a time; that at the nearest time kept where it lies beyond them."""
-        later: tuple[float, Pose] | None = None
-        for stamp, pose in reversed(self._poses):
-            if stamp <= stamp_s:
-                if later is None or later[0] == stamp:
-                    return pose
-                return pose.between(later[1], (stamp_s - stamp) / (later[0] - stamp))
-            later = (stamp, pose)
-        return later[1] if later else Pose()
+        x_m, y_m, heading_rad = self.all_at(np.array([stamp_s]))[:, 0]
+        return Pose(float(x_m), float(y_m), float(heading_rad))
+
+    def all_at(self, stamps_s: Floats) -> Floats:
+        """The poses at many times, shape (n,), each as `at` gives it; shape (3, n): x, y, heading."""
+        if self._end == 0:
+            return np.zeros((3, len(stamps_s)))
+        stamps, *columns = self._table[:, max(0, self._end - self._kept) : self._end]
+        return np.stack([np.interp(stamps_s, stamps, column) for column in columns])

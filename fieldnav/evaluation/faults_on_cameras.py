@@ -9,6 +9,7 @@ from fieldnav.messages import CameraName
 from fieldnav.simulation.injection_camera import CameraFault
 
 LATE_S = 0.8
+OLD_S, GROWING_S_PER_S = 3.0, 0.05
 SLOW_HZ, SLOWER_HZ, SLOWER_AFTER_S = 5.0, 3.0, 4.0
 """Frames a second, of fifteen; and after a while fewer still."""
 
@@ -24,11 +25,25 @@ def of_cameras() -> tuple[Injection, ...]:
         _injection(FaultKind.CAMERA_SIZE, CameraFault.SIZE),
         _injection(FaultKind.CAMERA_TURNED, CameraFault.TURNED),
         _injection(FaultKind.FRAMES_LATE, CameraFault.LATE, LATE_S),
+        _lie(FaultKind.CAMERA_BLIND, CameraFault.COLOURLESS),
+        _lie(FaultKind.CAMERA_BLIND, CameraFault.MUDDY),
+        _lie(FaultKind.CAMERA_BLIND, CameraFault.ONE_PIXEL),
+        _lie(FaultKind.CAMERA_PAST, CameraFault.CLOCK),
+        _lie(FaultKind.CAMERA_PAST, CameraFault.IN_TURN),
+        _lie(FaultKind.CAMERA_PAST, CameraFault.OLD, OLD_S),
+        _lie(FaultKind.CAMERA_PAST, CameraFault.GROWING, GROWING_S_PER_S),
     )
 
 
 def _injection(kind: FaultKind, fault: CameraFault, measure: float = 0.0) -> Injection:
     return Injection(kind, partial(_break, fault=fault, measure=measure), _mend)
+
+
+def _lie(kind: FaultKind, fault: CameraFault, measure: float = 0.0) -> Injection:
+    """Pictures that may well be taken for good ones."""
+    return Injection(
+        kind, partial(_break, fault=fault, measure=measure), _mend, called=f"camera: {fault.value}"
+    )
 
 
 def _break(rig: Rig, fault: CameraFault, measure: float) -> None:

@@ -16,6 +16,8 @@ STANDS_MPS = 0.01
 """A wheel that turns slower stands."""
 LOOKED_EVERY = 5
 """Rounds between two looks at where the robot is."""
+PAST_M = 0.5
+"""Driven until pictures of the past must be found out."""
 ROUNDING_S = 1e-6
 
 
@@ -111,17 +113,20 @@ class Witness:
         ages = [rig.now_s - (rig.cameras[name].good_s or -inf) for name in rig.guided_by]
         if max(ages, default=0.0) <= rig.robot.timeouts.frame_s + ROUNDING_S:
             return False
-        return self._injection.fault is not FaultKind.CAMERA_FROZEN or self._driven_m() > self._allowed_m()
+        return self._driven_m() > self._allowed_m()
 
     def _driven_m(self) -> float:
         here = self._rig.world.now.pose
         return hypot(here.x_m - self._begun_at.x_m, here.y_m - self._begun_at.y_m)
 
     def _allowed_m(self) -> float:
-        """Driven until a frozen picture is found out, two frames, and what a good one is gone by for."""
+        """Driven until a lie is found out, two frames, and what a good one is gone by for; else nothing."""
         robot = self._rig.robot
         seconds = robot.timeouts.frame_s + 2 / robot.cameras.front.rate_hz
-        return FROZEN_M + self._rig.crop.speeds.follow_mps * seconds
+        gone_by_m = self._rig.crop.speeds.follow_mps * seconds
+        if self._injection.fault is FaultKind.CAMERA_FROZEN:
+            return FROZEN_M + gone_by_m
+        return PAST_M if self._injection.fault is FaultKind.CAMERA_PAST else 0.0
 
     def _look_where(self) -> None:
         """How far from the middle of the lane the robot is, while it follows or leaves one."""

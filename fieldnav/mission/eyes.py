@@ -1,6 +1,6 @@
 """The cameras as the loop sees them: the frames that are new, and how old the newest ones are."""
 
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, replace
 
 from drivers.ports import Camera
@@ -10,7 +10,7 @@ from fieldnav.messages import CameraName, Frame, Motion, Twist
 from fieldnav.mission.frame_rate import FrameRate
 from fieldnav.mission.picture_watch import PictureWatch
 from fieldnav.mission.refusal import FUTURE_S, Sight
-from fieldnav.odometry import Pose
+from fieldnav.odometry import Pose, Track
 from fieldnav.pinhole import Pinhole
 from fieldnav.settings.robot import Robot
 
@@ -38,16 +38,19 @@ class Eyes:
     ) -> None:
         self._stale_s = robot.timeouts.frame_s
         self._eyes = {
-            name: _Eye(camera, PictureWatch(pinholes[name]), FrameRate(robot.cameras.get(name).rate_hz))
+            name: _Eye(
+                camera,
+                PictureWatch(pinholes[name], self._stale_s),
+                FrameRate(robot.cameras.get(name).rate_hz),
+            )
             for name, camera in cameras.items()
         }
 
-    def look(
-        self, now_s: float, guides: Iterable[CameraName], pose_at: Callable[[float], Pose]
-    ) -> dict[CameraName, Frame]:
+    def look(self, now_s: float, guides: Iterable[CameraName], track: Track) -> dict[CameraName, Frame]:
         """The frames, of those cameras that guide, that are new since the last look and can be gone by.
 
-        Raises DriverError for what does not mend by waiting: the wrong size, upside down.
+        track: where the robot was when. Raises DriverError for what does not mend by waiting: the wrong size,
+        upside down, pictures that do not show where the robot is.
         """
         fresh = {}
         for name in guides:
@@ -60,7 +63,7 @@ class Eyes:
             if not -FUTURE_S <= now_s - frame.stamp_s <= self._stale_s:
                 eye.usable, eye.trouble = frame, None  # its age speaks for itself
                 continue
-            eye.trouble = eye.watch.objection(frame, pose_at(frame.stamp_s))
+            eye.trouble = eye.watch.objection(frame, track)
             if eye.trouble is None:
                 eye.usable = fresh[name] = frame
         return fresh
@@ -75,6 +78,13 @@ class Eyes:
             eye.trouble = trouble
             return None
 
+    def exposed(self, frames: Mapping[CameraName, Frame], track: Track) -> dict[CameraName, Pose]:
+        """Where the robot was when each frame was taken, the camera's measured delay allowed for."""
+        return {
+            name: track.at(frame.stamp_s - self._eyes[name].watch.motion.delay_s)
+            for name, frame in frames.items()
+        }
+
     def sight(self, now_s: float, guides: Iterable[CameraName]) -> Sight:
         """The worst age of the newest frames that guide, and what is wrong with the cameras that give none.
 
@@ -82,15 +92,17 @@ class Eyes:
         """
         eyes = [self._eyes[name] for name in guides]
         trouble = next((eye.trouble for eye in eyes if eye.trouble), None)
-        ages = [now_s - eye.usable.stamp_s for eye in eyes if eye.usable]
+        ages = [now_s - eye.usable.stamp_s + eye.watch.motion.delay_s for eye in eyes if eye.usable]
         if len(ages) < len(eyes):
             return Sight(None, trouble)
         youngest = min(ages, default=0.0)
         return Sight(youngest if youngest < -FUTURE_S else max(ages, default=0.0), trouble)
 
     def slowed(self, motion: Motion, guides: Iterable[CameraName]) -> Motion:
-        """As fast as the slowest of the cameras that guide lets one see."""
+        """As fast as the slowest of the cameras that guide lets one see, and as shows how late its pictures
+        are."""
         share, _ = self.slowness(guides)
+        share *= min((self._eyes[name].watch.motion.speed_share for name in guides), default=1.0)
         twist = motion.twist
         slower = Twist(twist.vx_mps * share, twist.vy_mps * share, twist.yaw_rate_rps * share)
         return motion if share >= 1 else replace(motion, twist=slower)

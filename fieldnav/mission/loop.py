@@ -143,7 +143,7 @@ class Mission:
             self.react(now_s, disobedient)
             return
         guides = self.course.behaviours.current.cameras
-        frames = self._eyes.look(now_s, guides, self.travel.pose_at)
+        frames = self._eyes.look(now_s, guides, self.travel.track)
         step = self.course.asked(self.course.behaviours.current.step(self._observe(now_s, frames)))
         step = self._explained(now_s, step, guides)
         warning = self._noted(now_s, step, guides)
@@ -170,7 +170,7 @@ class Mission:
             wheels_aligned=self._gate.aligned,
             wheels_ready=self.wheels.ready,
             pose=self.travel.pose,
-            exposed={name: self.travel.pose_at(frame.stamp_s) for name, frame in frames.items()},
+            exposed=self._eyes.exposed(frames, self.travel.track),
         )
 
     def _explained(self, now_s: float, step: Step, guides: tuple[CameraName, ...]) -> Step:

@@ -1,4 +1,4 @@
-"""Whether a camera's pictures can be gone by: lit, alive, of the right size, and moving as the wheels say."""
+"""Whether a camera's pictures can be gone by: lit, alive, in colour, and showing what must be in view."""
 
 from math import hypot
 
@@ -6,12 +6,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fieldnav.errors import DriverError
-from fieldnav.faults import FaultKind, Trouble
+from fieldnav.faults import FaultKind, Reaction, Trouble
 from fieldnav.messages import Frame
-from fieldnav.mission.motion_vote import MotionVote
-from fieldnav.mission.sudden_turn import SuddenTurn
-from fieldnav.odometry import Pose
+from fieldnav.mission.motion_monitor import MotionMonitor, View
+from fieldnav.odometry import Pose, Track
+from fieldnav.perception.ground_view import GroundView
 from fieldnav.perception.pose.picture_quality import BLACK, WHITE
+from fieldnav.perception.sidestep.wheel_motion import travelled
 from fieldnav.pinhole import Pinhole
 
 EVERY_PX = 8
@@ -20,23 +21,49 @@ FROZEN_M = 0.02
 """Driven under one and the same picture; a plant then moves by ten pixels."""
 FROZEN_S = 5.0
 """The same picture for so long is none of a standing robot's either: leaves and light move."""
+COLOUR_LEVELS, COLOURED_SHARE = 6, 0.05
+"""Grey levels between a pixel's channels, and the share of pixels that have more: the most colourful
+twentieth of dull soil has 11, a camera's night mode 0, JPEG's rounding 2."""
+CONTRAST = 1.0
+"""Grey levels, standard deviation of the channel that has most: less than a sensor's noise."""
+LEFT_SHARE = 0.2
+"""Of the plants that must be in view; wind and shaking leave more than half."""
+REMEMBERED_S = 4.0
+"""Longer than a fault is held for: afterwards a person may have hung the camera anew."""
+COMPARED_M, COMPARED_S = 0.02, 0.13
+"""Pictures are compared once the robot has moved so far, or two frames later."""
 
 
 class PictureWatch:
     """Looks at each frame of one camera before anything is gone by it."""
 
-    def __init__(self, camera: Pinhole) -> None:
+    def __init__(self, camera: Pinhole, max_delay_s: float) -> None:
+        """max_delay_s: by which pictures may be older than their stamps."""
         self._camera = camera
-        self._vote, self._turn = MotionVote(camera), SuddenTurn()
-        self._sample: NDArray[np.uint8] | None = None
+        self._view = GroundView(camera)
+        self.motion = MotionMonitor(self._view, max_delay_s)
+        self._before: View | None = None
+        self._sample = self._image = np.empty(0, np.uint8)
         self._changed_s = 0.0
         self._changed_at = Pose()
 
-    def objection(self, frame: Frame, pose: Pose) -> Trouble | None:
-        """Why a frame taken at a pose must not guide.
+    def objection(self, frame: Frame, track: Track) -> Trouble | None:
+        """Why a frame must not guide; track: where the robot was when.
 
-        Raises DriverError for a picture of the wrong size, or one that moves against the wheels.
+        Raises DriverError for what no waiting mends: a picture of the wrong size, or not of where the robot
+        is.
         """
+        self._check_size(frame)
+        sample = frame.image[::EVERY_PX, ::EVERY_PX]
+        found = self._unlit(frame, float(sample.mean())) or self._frozen(
+            frame, sample, track.at(frame.stamp_s)
+        )
+        found = found or self._empty(frame, sample) or self._compared(frame, track)
+        if found is not None and found.reaction is not Reaction.HOLD:
+            raise DriverError(found.said, found.fault)
+        return found
+
+    def _check_size(self, frame: Frame) -> None:
         height, width = frame.image.shape[:2]
         if (width, height) != (self._camera.width_px, self._camera.height_px):
             wanted = f"{self._camera.width_px}x{self._camera.height_px}"
@@ -44,17 +71,6 @@ class PictureWatch:
                 f"{frame.camera.value} camera gives {width}x{height}, its file says {wanted}",
                 FaultKind.CAMERA_SIZE,
             )
-        sample = frame.image[::EVERY_PX, ::EVERY_PX]
-        found = self._unlit(frame, float(sample.mean())) or self._frozen(frame, sample, pose)
-        if found is None and self._turn.happened(frame, pose):
-            self._vote.suspect()
-        if found is None and self._vote.against(frame, pose):
-            raise DriverError(
-                f"{frame.camera.value} camera: the ground moves against what the wheels say; it hangs upside "
-                "down, or front and rear have changed places",
-                FaultKind.CAMERA_TURNED,
-            )
-        return found
 
     def _unlit(self, frame: Frame, brightness: float) -> Trouble | None:
         name = f"{frame.camera.value} camera: brightness {brightness:.0f} of 255"
@@ -65,8 +81,11 @@ class PictureWatch:
         return None
 
     def _frozen(self, frame: Frame, sample: NDArray[np.uint8], pose: Pose) -> Trouble | None:
-        if self._sample is None or not np.array_equal(sample, self._sample):
-            self._sample, self._changed_s, self._changed_at = sample.copy(), frame.stamp_s, pose
+        # The sample alone would miss a clock that runs in a picture that stands.
+        same = np.array_equal(sample, self._sample) and np.array_equal(frame.image, self._image)
+        if not same:
+            self._sample, self._image = sample, frame.image
+            self._changed_s, self._changed_at = frame.stamp_s, pose
             return None
         driven_m = hypot(pose.x_m - self._changed_at.x_m, pose.y_m - self._changed_at.y_m)
         same_s = frame.stamp_s - self._changed_s
@@ -74,3 +93,50 @@ class PictureWatch:
             return None
         said = f"{frame.camera.value} camera: the same picture for {same_s:.2f} s and {driven_m:.2f} m"
         return Trouble(FaultKind.CAMERA_FROZEN, said)
+
+    def _empty(self, frame: Frame, sample: NDArray[np.uint8]) -> Trouble | None:
+        """Crop is told from soil by its colour: a grey picture shows no crop, and that is no sign of its
+        end."""
+        name = f"{frame.camera.value} camera"
+        contrast = float(sample.std(axis=(0, 1)).max())
+        if contrast < CONTRAST:
+            said = f"{name}: nothing can be told apart in it, contrast {contrast:.1f}, limit {CONTRAST:.1f}"
+            return Trouble(FaultKind.CAMERA_BLIND, said)
+        coloured = float((np.ptp(sample, axis=2) > COLOUR_LEVELS).mean())
+        if coloured >= COLOURED_SHARE:
+            return None
+        said = f"{name}: {coloured:.0%} of the picture has a colour, limit {COLOURED_SHARE:.0%}"
+        return Trouble(FaultKind.CAMERA_BLIND, said)
+
+    def _compared(self, frame: Frame, track: Track) -> Trouble | None:
+        """Hold the picture against an earlier one, by what the wheels say of the way between."""
+        before = self._before
+        if before is not None and frame.stamp_s - before.stamp_s > REMEMBERED_S:
+            before = self._before = None
+        if before is not None:
+            there, here = track.at(before.stamp_s), track.at(frame.stamp_s)
+            moved_m = hypot(here.x_m - there.x_m, here.y_m - there.y_m)
+            if moved_m < COMPARED_M and frame.stamp_s - before.stamp_s < COMPARED_S:
+                return None
+        now = View(self._view.look(frame.image), frame.stamp_s)
+        if before is None:
+            self._before = now
+            return None
+        found = self._vanished(frame, before, now, track)
+        if found is not None:
+            return found  # what was in view before stays what is looked for
+        self._before = now
+        return self.motion.trouble(frame.camera, before, now, track)
+
+    def _vanished(self, frame: Frame, before: View, now: View, track: Track) -> Trouble | None:
+        """Plants that were in view, and by the wheels' word must still be, do not end like a row does."""
+        moved = travelled(track.at(before.stamp_s), track.at(now.stamp_s), frame.camera)
+        left_m = moved.left_m + moved.turn_rad * self._view.middle_m
+        left = self._view.plants_left(before.ground, now.ground, moved.ahead_m, left_m)
+        if left is None or left >= LEFT_SHARE:
+            return None
+        said = (
+            f"{frame.camera.value} camera: {left:.0%} of the plants that must be in view are, "
+            f"limit {LEFT_SHARE:.0%}"
+        )
+        return Trouble(FaultKind.CAMERA_BLIND, said)

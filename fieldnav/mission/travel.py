@@ -11,8 +11,8 @@ STANDING_MPS = 0.01
 """Slower than this the robot stands; one motor revolution a minute is 0.5 mm/s. Our choice."""
 STANDING_RPS = 0.01
 """The same for turning, half a degree a second."""
-KEPT_POSES = 100
-"""Two seconds of ticks: no frame that is older is looked at."""
+KEPT_POSES = 300
+"""Six seconds of ticks: longer than pictures may be late that are still told to be so."""
 
 
 class Travel:
@@ -27,11 +27,7 @@ class Travel:
         self.sideways_m = 0.0
         self.pose = Pose()
         self.report = WheelReport()
-        self._track = Track(KEPT_POSES)
-
-    def pose_at(self, stamp_s: float) -> Pose:
-        """Where the wheels said that the robot was, at a time not long ago."""
-        return self._track.at(stamp_s)
+        self.track = Track(KEPT_POSES)
 
     @property
     def standing(self) -> bool:
@@ -54,4 +50,4 @@ class Travel:
         self.forward_m += self.twist.vx_mps * dt_s
         self.sideways_m += self.twist.vy_mps * dt_s
         self.pose = self.pose.moved(self.twist, dt_s)
-        self._track.add(now_s, self.pose)
+        self.track.add(now_s, self.pose)

@@ -9,12 +9,20 @@ from fieldnav.errors import DriverError
 from fieldnav.faults import FaultKind, Trouble
 from fieldnav.messages import CameraName, Frame, Image
 from fieldnav.mission.frame_rate import KEPT, FrameRate
-from fieldnav.mission.picture_watch import BLACK, FROZEN_M, FROZEN_S, WHITE, PictureWatch
-from fieldnav.odometry import Pose
+from fieldnav.mission.picture_watch import (
+    BLACK,
+    COLOUR_LEVELS,
+    COLOURED_SHARE,
+    FROZEN_M,
+    FROZEN_S,
+    WHITE,
+    PictureWatch,
+)
+from fieldnav.odometry import Pose, Track
 from fieldnav.pinhole import Pinhole
 
 CAMERA = Pinhole(640, 360, 320 / tan(radians(69) / 2), 1.0, radians(65), 0.75)
-RATE_HZ = 15.0
+RATE_HZ, MAX_DELAY_S = 15.0, 0.5
 PIXEL: Image = np.zeros((1, 1, 3), np.uint8)
 
 
@@ -26,6 +34,18 @@ def grey(level: float, noise: float = 3.0, seed: int = 0, shape: tuple[int, int]
 
 def frame(image: Image, number: int = 1, camera: CameraName = CameraName.FRONT) -> Frame:
     return Frame(camera, number, number / RATE_HZ, image)
+
+
+def watching() -> PictureWatch:
+    return PictureWatch(CAMERA, MAX_DELAY_S)
+
+
+def track_of(*poses: Pose) -> Track:
+    """Where the robot was at each of the frames, from number 0 on."""
+    track = Track(1000)
+    for number, pose in enumerate(poses or (Pose(),)):
+        track.add(number / RATE_HZ, pose)
+    return track
 
 
 @pytest.mark.parametrize(
@@ -40,7 +60,7 @@ def frame(image: Image, number: int = 1, camera: CameraName = CameraName.FRONT) 
 def test_a_black_or_white_picture_is_refused_and_says_how_bright_it_is(
     level: float, fault: FaultKind
 ) -> None:
-    found = PictureWatch(CAMERA).objection(frame(grey(level)), Pose())
+    found = watching().objection(frame(grey(level)), track_of())
     assert found is not None
     assert found.fault is fault
     assert "front camera: brightness" in found.said
@@ -48,51 +68,87 @@ def test_a_black_or_white_picture_is_refused_and_says_how_bright_it_is(
 
 @pytest.mark.parametrize("level", [BLACK + 4, 60, 128, 200, WHITE - 4])
 def test_a_dim_or_a_bright_picture_is_gone_by(level: float) -> None:
-    assert PictureWatch(CAMERA).objection(frame(grey(level)), Pose()) is None
+    assert watching().objection(frame(grey(level)), track_of()) is None
 
 
 @pytest.mark.parametrize("shape", [(180, 320), (360, 320), (720, 1280), (640, 360)])
 def test_a_picture_of_the_wrong_size_is_an_error_with_both_sizes(shape: tuple[int, int]) -> None:
     with pytest.raises(DriverError, match=f"gives {shape[1]}x{shape[0]}, its file says 640x360") as caught:
-        PictureWatch(CAMERA).objection(frame(grey(90, shape=shape)), Pose())
+        watching().objection(frame(grey(90, shape=shape)), track_of())
     assert caught.value.fault is FaultKind.CAMERA_SIZE
 
 
 def drive(watch: PictureWatch, pictures: list[Image], step_m: float, sideways: bool = False) -> list[Trouble]:
     """What is said of frame after frame, each taken a step further on."""
-    said = []
-    for number, image in enumerate(pictures):
-        here_m = number * step_m
-        pose = Pose(0.0, here_m, 0.0) if sideways else Pose(here_m, 0.0, 0.0)
-        said.append(watch.objection(frame(image, number), pose))
+    places = [number * step_m for number in range(len(pictures))]
+    track = track_of(*(Pose(0.0, here_m) if sideways else Pose(here_m) for here_m in places))
+    said = [watch.objection(frame(image, number), track) for number, image in enumerate(pictures)]
     return [each for each in said if each is not None]
 
 
 @pytest.mark.parametrize("sideways", [False, True])
 def test_the_same_picture_is_found_out_as_soon_as_the_robot_has_moved(sideways: bool) -> None:
     step_m = FROZEN_M * 0.4
-    assert not drive(PictureWatch(CAMERA), [grey(90)] * 3, step_m, sideways), "not before"
-    found = drive(PictureWatch(CAMERA), [grey(90)] * 5, step_m, sideways)
+    assert not drive(watching(), [grey(90)] * 3, step_m, sideways), "not before"
+    found = drive(watching(), [grey(90)] * 5, step_m, sideways)
     assert [each.fault for each in found] == [FaultKind.CAMERA_FROZEN] * 2
     assert "the same picture for" in found[0].said
 
 
 def test_the_same_picture_is_found_out_also_where_the_robot_stands() -> None:
     frames = round(FROZEN_S * RATE_HZ)
-    assert not drive(PictureWatch(CAMERA), [grey(90)] * frames, 0.0), "not before"
-    assert drive(PictureWatch(CAMERA), [grey(90)] * (frames + 3), 0.0)[0].fault is FaultKind.CAMERA_FROZEN
+    assert not drive(watching(), [grey(90)] * frames, 0.0), "not before"
+    assert drive(watching(), [grey(90)] * (frames + 3), 0.0)[0].fault is FaultKind.CAMERA_FROZEN
 
 
 def test_pictures_that_differ_by_noise_alone_are_no_frozen_ones() -> None:
     pictures = [grey(90, noise=1.0, seed=seed) for seed in range(12)]
-    assert not drive(PictureWatch(CAMERA), pictures, 0.0)
-    assert not drive(PictureWatch(CAMERA), pictures, 2 * FROZEN_M)
+    for image in pictures:
+        image[..., 2] += 20  # soil has a colour
+    assert not drive(watching(), pictures, 0.0)
+    assert not drive(watching(), pictures, 2 * FROZEN_M)
 
 
 def test_a_camera_that_shows_something_new_again_is_gone_by_again() -> None:
-    watch = PictureWatch(CAMERA)
+    watch = watching()
     assert drive(watch, [grey(90)] * 5, FROZEN_M)
-    assert watch.objection(frame(grey(90, seed=7), 6), Pose(1.0, 0.0, 0.0)) is None
+    assert watch.objection(frame(grey(90, seed=7), 6), track_of(*[Pose(1.0)] * 7)) is None
+
+
+def test_a_picture_that_stands_while_a_clock_runs_in_it_is_not_the_same_picture() -> None:
+    """It is left to be held against the motion: a held robot would drive on whenever the clock moves."""
+    pictures = [grey(90) for _ in range(8)]
+    for number, image in enumerate(pictures):
+        image[1, : number + 1] = 255
+    assert not drive(watching(), pictures, FROZEN_M)
+
+
+def coloured(levels: float, share: float = 1.0) -> Image:
+    """A grey picture in which a share of the pixels have a colour."""
+    image = np.repeat(grey(90)[:, :, :1], 3, axis=2)
+    reddened = np.random.default_rng(3).random(image.shape[:2]) < share
+    image[..., 2][reddened] = image[..., 2][reddened] + round(levels)
+    return image
+
+
+def test_a_picture_without_colour_is_not_gone_by_for_it_cannot_show_crop() -> None:
+    found = watching().objection(frame(coloured(0)), track_of())
+    assert found is not None
+    assert found.fault is FaultKind.CAMERA_BLIND
+    assert "0% of the picture has a colour, limit 5%" in found.said
+
+
+@pytest.mark.parametrize("levels", [COLOUR_LEVELS + 1, 30])
+def test_the_dullest_soil_has_colour_enough(levels: int) -> None:
+    assert watching().objection(frame(coloured(levels, 2 * COLOURED_SHARE)), track_of()) is None
+
+
+def test_a_picture_in_which_nothing_can_be_told_apart_is_not_gone_by() -> None:
+    image = np.broadcast_to(np.array([60, 110, 80], np.uint8), (360, 640, 3)).copy()
+    found = watching().objection(frame(image), track_of())
+    assert found is not None
+    assert found.fault is FaultKind.CAMERA_BLIND
+    assert "nothing can be told apart in it, contrast 0.0" in found.said
 
 
 def rated(rate_hz: float, frames: int = 2 * KEPT, skipped: int = 0) -> FrameRate:

@@ -4,29 +4,29 @@ from dataclasses import dataclass
 from math import hypot
 from statistics import median
 
-from fieldnav.messages import CameraName, Floats
-from fieldnav.mission.sudden_turn import textured
+from fieldnav.messages import CameraName
 from fieldnav.mission.tick import Tick
 from fieldnav.odometry import Pose
-from fieldnav.perception.seen_motion import agreement, expected_px, patch
+from fieldnav.perception.ground_view import GroundMap, GroundView
 from fieldnav.perception.sidestep.wheel_motion import travelled
 from fieldnav.settings.robot import Robot
 
 APART_M = 0.03
-"""Driven from one picture to the next that is compared. Measured: half of a true speed is then told to 3 %,
-but at twice as far to 30 %, for plants that stand one behind the other are taken for each other."""
+"""Driven from one picture to the next that is compared."""
 MOST_M = 0.12
-"""Further apart nothing is compared."""
+"""Further apart nothing is compared: plants that stand one behind the other are then taken for each other."""
 FEWEST = 20
 """Comparisons, a metre and more, before anything is said."""
 OFF = 0.15
 """Of the speed; less is lost in how evenly the camera hangs and the ground lies."""
+REACH = 2.5
+"""Times the assumed motion, within which the ground is looked for."""
 
 
 @dataclass(frozen=True, slots=True)
 class _Before:
     camera: CameraName
-    patch: Floats
+    ground: GroundMap
     pose: Pose
 
 
@@ -34,7 +34,7 @@ class GroundSpeed:
     """An observer of the mission; compares the frames that were looked at."""
 
     def __init__(self, robot: Robot) -> None:
-        self._cameras = robot.cameras.pinholes()
+        self._views = {name: GroundView(camera) for name, camera in robot.cameras.pinholes().items()}
         self._before: _Before | None = None
         self._shares: list[float] = []
 
@@ -48,13 +48,18 @@ class GroundSpeed:
             driven_m = hypot(tick.pose.x_m - before.pose.x_m, tick.pose.y_m - before.pose.y_m)
             if driven_m < APART_M:
                 return
-        now = _Before(frame.camera, patch(frame.image), tick.pose)
-        if before is not None and APART_M <= driven_m <= MOST_M and textured(before.patch).size:
-            moved = travelled(before.pose, now.pose, now.camera)
-            expected = expected_px(self._cameras[now.camera], moved)
-            # Copies, for OpenCV weighs the pictures that it is given in place.
-            self._shares.append(agreement(before.patch.copy(), now.patch.copy(), expected))
+        now = _Before(frame.camera, self._views[frame.camera].look(frame.image), tick.pose)
+        if before is not None and APART_M <= driven_m <= MOST_M:
+            self._compare(before, now, driven_m)
         self._before = now
+
+    def _compare(self, before: _Before, now: _Before, driven_m: float) -> None:
+        view, moved = self._views[now.camera], travelled(before.pose, now.pose, now.camera)
+        seen = view.motion(before.ground, now.ground, REACH * driven_m)
+        if seen is not None and seen.found:
+            left_m = moved.left_m + moved.turn_rad * view.middle_m
+            along_m2 = seen.ahead_m * moved.ahead_m + seen.left_m * left_m
+            self._shares.append(along_m2 / (moved.ahead_m**2 + left_m**2))
 
     @property
     def share(self) -> float | None:
