@@ -10,7 +10,7 @@ import pytest
 from fieldnav.errors import DriverError, SettingsError
 from fieldnav.messages import CameraName, Image
 from fieldnav.replay.foreign.camera import ForeignCamera
-from fieldnav.replay.foreign.container import stamped
+from fieldnav.replay.foreign.container import Written, stamped
 from fieldnav.replay.foreign.raw_image import raw_picture
 from fieldnav.replay.foreign.shot import NS_PER_S, Shot
 from fieldnav.settings.loading import load_robot
@@ -79,7 +79,9 @@ def test_a_header_without_a_stamp_is_as_old_as_its_message(seconds: int, expecte
     stamp = SimpleNamespace(sec=seconds, nanosec=7 if seconds else 0)
     content = SimpleNamespace(header=SimpleNamespace(stamp=stamp))
 
-    assert stamped(5, "sensor_msgs/msg/Image", content).stamp_ns == expected_ns
+    (told,) = stamped(iter([Written(5, "sensor_msgs/msg/Image", content)]))
+
+    assert told.stamp_ns == expected_ns
 
 
 @pytest.mark.parametrize("changes", [{"step": 3}, {"height": 9}, {"width": 0}, {"height": 0}])
@@ -90,7 +92,8 @@ def test_a_head_that_does_not_fit_the_bytes_is_refused(changes: dict[str, int]) 
 
 def shots(*stamps_s: float, size: tuple[int, int] = (FRONT.width_px, FRONT.height_px)) -> Iterator[Shot]:
     image = np.zeros((size[1], size[0], 3), np.uint8)
-    return iter([Shot("cam", round(each * NS_PER_S), lambda: image, b"jpeg") for each in stamps_s])
+    stamps_ns = [round(each * NS_PER_S) for each in stamps_s]
+    return iter([Shot("cam", each, each, lambda: image, b"jpeg") for each in stamps_ns])
 
 
 def camera(**given: Any) -> Callable[..., ForeignCamera]:
@@ -99,7 +102,7 @@ def camera(**given: Any) -> Callable[..., ForeignCamera]:
 
 def test_a_camera_gives_the_newest_picture_of_its_time() -> None:
     seen = camera()(10.0, 10.1, 10.2, 10.5)
-    begun_ns = seen.first_ns
+    begun_ns = seen.next.stamp_ns
 
     seen.advance(0.3, begun_ns)
     frame = seen.latest(0.3)
@@ -111,11 +114,11 @@ def test_a_camera_gives_the_newest_picture_of_its_time() -> None:
 def test_a_picture_that_comes_too_late_is_passed_over() -> None:
     seen = camera()(10.0, 10.2, 10.1)
 
-    seen.advance(1.0, seen.first_ns)
+    seen.advance(1.0, seen.next.stamp_ns)
     frame = seen.latest(1.0)
 
     assert frame is not None and frame.stamp_s == pytest.approx(0.2) and frame.sequence == 2
-    assert seen.ended
+    assert seen.ended and seen.counts.late == seen.counts.not_looked_at == 1
 
 
 def test_pictures_of_another_size_are_scaled_and_it_is_said() -> None:
@@ -125,7 +128,7 @@ def test_pictures_of_another_size_are_scaled_and_it_is_said() -> None:
     frame = seen.latest(0.0)
 
     assert frame is not None and frame.image.shape == (720, 1280, 3) and frame.jpeg is None
-    assert seen.said == "front camera: 640x360 px scaled to 1280x720 px"
+    assert "front camera: 640x360 px scaled to 1280x720 px" in seen.notes
 
 
 def test_a_camera_without_any_picture_is_refused() -> None:
