@@ -2,7 +2,7 @@
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from itertools import chain
+from itertools import chain, islice, pairwise
 from math import inf
 
 import numpy as np
@@ -12,7 +12,7 @@ from fieldnav.faults import FaultKind
 from fieldnav.messages import CameraName, Frame, Image
 from fieldnav.replay.foreign.fitting import fitted
 from fieldnav.replay.foreign.shot import NS_PER_S, Shot
-from fieldnav.replay.foreign.steps import is_step
+from fieldnav.replay.foreign.steps import LOOK_AHEAD, MAX_BACK_NS, is_step
 from fieldnav.settings.camera import CameraSettings
 
 MAX_TRIED = 30
@@ -67,7 +67,7 @@ class ForeignCamera:
         """
         self.name, self._settings = name, settings
         self.counts, self.notes = Counts(there), list[str]()
-        self._shots = self._looked_at(shots)
+        self._shots: Iterator[Shot] = self._looked_at(shots)
         self.next = next(self._shots, None)
         self._before: Shot | None = None
         self._newest_s = -inf
@@ -99,19 +99,30 @@ class ForeignCamera:
             return False
         return self.step_ns < 0 or is_step(self.next.written_ns - self._before.written_ns, self.step_ns)
 
-    def advance(self, now_s: float, begun_ns: int) -> int:
-        """Read on to the newest picture of this time; how many came. Raises SettingsError for damage."""
+    def advance(self, now_s: float, begun_ns: int, leads: bool = False) -> int:
+        """Read on to the newest picture of this time; how many came. Raises SettingsError for damage.
+
+        leads: it stops where its clock was set back; in another camera such pictures are late.
+        """
         before = self.counts.taken
-        while self.next is not None and (self.next.stamp_ns - begun_ns) / NS_PER_S <= now_s:
-            self._take(self.next, (self.next.stamp_ns - begun_ns) / NS_PER_S, self.counts.taken > before)
+        while self.next is not None and not (leads and self.step_ns < 0):
+            stamp_s = (self.next.stamp_ns - begun_ns) / NS_PER_S
+            if stamp_s > now_s:
+                break
+            self._take(self.next, stamp_s, self.counts.taken > before)
             self._read_on()
         return self.counts.taken - before
 
     def step_over(self, begun_ns: int, back: bool) -> None:
-        """Leave behind what is of the clock before a step; begun_ns: when the next stretch of time begins."""
+        """Leave behind what is of the clock before a step; begun_ns: when the next stretch of time begins.
+
+        back: the leading camera's clock was set back, and, near by, this one's if it is the same.
+        """
         self._due = self._frame = None
-        while self.next is not None and self._is_behind(self.next, begun_ns, back):
+        left = self._before_own_step() if back else inf
+        while self.next is not None and left > 0 and (back or _is_long_before(self.next, begun_ns)):
             self.counts.dropped += 1
+            left -= 1
             self._read_on()
         self._before = None
 
@@ -146,11 +157,17 @@ class ForeignCamera:
         self.counts.overtaken += overtakes
         self._due, self._newest_s = shot, stamp_s
 
-    def _is_behind(self, shot: Shot, begun_ns: int, back: bool) -> bool:
-        """Whether a picture is of the clock before the step, that the leading camera has behind it."""
-        if not back:
-            return shot.stamp_ns < begun_ns and is_step(shot.stamp_ns, begun_ns)
-        return is_step(begun_ns, shot.stamp_ns) and not (self._before and self.step_ns < 0)
+    def _before_own_step(self) -> int:
+        """How many of the next pictures come before this camera's clock was set back, if it was."""
+        if self.next is None or self.step_ns < 0:
+            return 0
+        coming = list(islice(self._shots, LOOK_AHEAD))
+        self._shots = chain(coming, self._shots)
+        stamps_ns = [self.next.stamp_ns, *(each.stamp_ns for each in coming)]
+        steps = [
+            number for number, (one, two) in enumerate(pairwise(stamps_ns), 1) if two < one - MAX_BACK_NS
+        ]
+        return steps[0] if steps else 0
 
     def _damaged(self, number: int, said: str) -> None:
         if self.counts.damaged == 0:
@@ -193,6 +210,10 @@ class ForeignCamera:
             self.notes.append(
                 f"{self.name.value} camera: {width}x{height} px scaled to {to_width}x{to_height} px"
             )
+
+
+def _is_long_before(shot: Shot, begun_ns: int) -> bool:
+    return shot.stamp_ns < begun_ns and is_step(shot.stamp_ns, begun_ns)
 
 
 class AbsentCamera:

@@ -41,7 +41,7 @@ class Joined:
 
 
 def mcap_files(folder: Path) -> list[Path]:
-    """The MCAP files of a bag of ROS 2 in their order; none where it is another bag, or compressed as a whole.
+    """The MCAP files of a bag of ROS 2 in order; none where it is another bag, or compressed as a whole.
 
     What is wrong with its metadata, rosbags tells.
     """

@@ -76,7 +76,10 @@ class Timeline:
 
     def advance(self, now_s: float) -> dict[CameraName, int]:
         """How many pictures of each camera came by now. Raises SettingsError for a broken file."""
-        return {name: camera.advance(now_s, self.begun_ns) for name, camera in self._cameras.items()}
+        return {
+            name: camera.advance(now_s, self.begun_ns, leads=camera is self._leading)
+            for name, camera in self._cameras.items()
+        }
 
     def _is_silent(self, now_s: float) -> bool:
         """Whether no camera gives a picture for longer than a gap."""
