@@ -40,6 +40,8 @@ class McapFile:
                 self._index = index_of(file)
         except Exception as error:  # of many kinds, for what is broken here and there
             raise self._broken(str(error) or type(error).__name__) from error
+        if self._index.damage and not self._index.channels:
+            raise self._broken(self._index.damage)
         self._topics = {each.topic: _type(self._index, each) for each in self._index.channels.values()}
         self._counts = counts_of(self._index)
 

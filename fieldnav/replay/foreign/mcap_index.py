@@ -68,6 +68,8 @@ def index_of(file: BinaryIO) -> McapIndex:
 def messages_at(file: BinaryIO, place: Place) -> Iterator[Message]:
     """The messages that a place holds, in written order. Raises DamageError."""
     opcode, body = _record(file, place.at)
+    if opcode not in (Opcode.CHUNK, Opcode.MESSAGE):
+        raise DamageError(f"there is no message at byte {place.at}, where the file says so")
     records = _in_chunk(body, place.at) if opcode == Opcode.CHUNK else iter([(opcode, body)])
     for kind, content in records:
         if kind == Opcode.MESSAGE:
@@ -120,7 +122,7 @@ def _walked(file: BinaryIO) -> McapIndex:
         if opcode in (Opcode.CHUNK, Opcode.MESSAGE, Opcode.SCHEMA, Opcode.CHANNEL):
             _take(file, at, found)
         at += HEAD.size + length
-    found.damage = f"it breaks off at byte {at}"
+    found.damage = found.damage or f"it breaks off at byte {at}"
     return found
 
 
@@ -130,8 +132,9 @@ def _take(file: BinaryIO, at: int, found: McapIndex) -> None:
     try:
         opcode, body = _record(file, at)
         records = list(_in_chunk(body, at)) if opcode == Opcode.CHUNK else [(opcode, body)]
-    except DamageError:
+    except DamageError as error:
         found.places.append(place)
+        found.damage = found.damage or str(error)
         return
     for kind, content in records:
         if kind == Opcode.SCHEMA and (schema := _parsed(Schema, content)):
