@@ -29,6 +29,9 @@ from fieldnav.settings.robot import Robot
 if TYPE_CHECKING:
     from fieldnav.cli.replay_foreign import Foreign
 
+OFF_BY, OFF_SHARE = 2, 0.02
+"""The number of frames that a video's head tells is often reckoned from its length. Our choice."""
+
 
 @dataclass(frozen=True, slots=True)
 class Opened:
@@ -80,7 +83,8 @@ def _pictures(source: str, asked: "Foreign", robot: Robot) -> Opened:
     cameras, seconds = {}, 0.0
     for camera, each in sources.items():
         shots, count, lasts_s = _played(each, asked.rate_hz)
-        cameras[camera] = ForeignCamera(camera, robot.cameras.get(camera), shots, count)
+        off = 0 if Path(each).is_dir() else OFF_BY + round(OFF_SHARE * count)
+        cameras[camera] = ForeignCamera(camera, robot.cameras.get(camera), shots, count, off)
         seconds = max(seconds, lasts_s)
     return Opened(cameras, seconds)
 

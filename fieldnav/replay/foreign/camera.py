@@ -59,14 +59,14 @@ class ForeignCamera:
     """
 
     def __init__(
-        self, name: CameraName, settings: CameraSettings, shots: Iterator[Shot], there: int = 0
+        self, name: CameraName, settings: CameraSettings, shots: Iterator[Shot], there: int = 0, off: int = 0
     ) -> None:
-        """there: how many pictures the file tells of.
+        """there: how many pictures the file tells of, by at most how many it may be off.
 
         Raises SettingsError where there is no picture, and for first pictures that cannot be used.
         """
         self.name, self._settings = name, settings
-        self.counts, self.notes = Counts(there), list[str]()
+        self.counts, self.notes, self._off = Counts(there), list[str](), off
         self._shots: Iterator[Shot] = self._looked_at(shots)
         self.next = next(self._shots, None)
         self._before: Shot | None = None
@@ -148,6 +148,8 @@ class ForeignCamera:
 
     def _read_on(self) -> None:
         self._before, self.next = self.next, next(self._shots, None)
+        if self.next is None and self.counts.untaken <= self._off:
+            self.counts.there = 0
 
     def _take(self, shot: Shot, stamp_s: float, overtakes: bool) -> None:
         self.counts.taken += 1
