@@ -149,7 +149,7 @@ class ForeignCamera:
     def _read_on(self) -> None:
         self._before, self.next = self.next, next(self._shots, None)
         if self.next is None and self.counts.untaken <= self._off:
-            self.counts.there = 0
+            self.counts.there = self.counts.taken + self.counts.dropped
 
     def _take(self, shot: Shot, stamp_s: float, overtakes: bool) -> None:
         self.counts.taken += 1

@@ -22,6 +22,8 @@ UNITS = (
     ("seconds", 1.0),
 )
 """Of lengths of time, in s."""
+ROUNDED_UP = 1.001
+"""An hour less a picture is told as an hour."""
 WHOLE_FROM = 10.0
 """Of any unit only whole ones are told; of fewer a decimal, too."""
 
@@ -65,7 +67,7 @@ def _emptied(waiting: list[tuple[int, int, Shot]]) -> Iterator[Shot]:
 
 def long(seconds: float) -> str:
     """A length of time in its largest unit: 53 years, 1.5 hours."""
-    length = abs(seconds)
+    length = abs(seconds) * ROUNDED_UP
     unit, size_s = next((each for each in UNITS if length >= each[1]), UNITS[-1])
     count = length / size_s
     shown = str(int(count)) if count >= WHOLE_FROM else f"{count:.1f}".removesuffix(".0")

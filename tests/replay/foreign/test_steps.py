@@ -230,10 +230,11 @@ def test_no_more_pictures_than_a_few_are_held() -> None:
 @pytest.mark.parametrize(
     ("length_s", "said"),
     [
-        (0.25, "0.2 seconds"),
+        (0.2, "0.2 seconds"),
         (1, "1 second"),
-        (75, "1.2 minutes"),
+        (72, "1.2 minutes"),
         (3600, "1 hour"),
+        (3599.9, "1 hour"),
         (53.9 * 31557600, "53 years"),
     ],
 )
