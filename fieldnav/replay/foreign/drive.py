@@ -85,21 +85,14 @@ def drive(order: Order, tell: Tell | None = None) -> Driven:
             summary = figures.summary(time.perf_counter() - started, Headland(), None)
             write_summary(directory.summary, summary)
     left_out = LeftOut(order.cameras.values(), order.again, summary.completed)
-    said = [
-        *order.notes,
-        *order.timeline.steps,
-        *(note for camera in order.cameras.values() for note in camera.notes),
-        *left_out.said,
-        *(each.said for each in absent.values()),
-    ]
-    return Driven(
-        directory,
-        summary,
-        sightings.seen,
-        ground.share,
-        tuple(said),
-        left_out.much or not sightings.seen.frames,
-    )
+    said = (*order.notes, *_told(order), *left_out.said, *(each.said for each in absent.values()))
+    much = left_out.much or not sightings.seen.frames
+    return Driven(directory, summary, sightings.seen, ground.share, said, much)
+
+
+def _told(order: Order) -> list[str]:
+    """What is to be told of the stamps and the pictures."""
+    return [*order.timeline.steps, *(note for camera in order.cameras.values() for note in camera.notes)]
 
 
 def _go(mission: Mission, order: Order, tape: Tape, tell: Tell | None) -> None:

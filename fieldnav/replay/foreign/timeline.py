@@ -8,6 +8,7 @@ from collections.abc import Mapping
 
 from fieldnav.errors import SettingsError
 from fieldnav.messages import CameraName
+from fieldnav.recording.stamps import LAST_NS
 from fieldnav.replay.foreign.camera import ForeignCamera
 from fieldnav.replay.foreign.odometry import ToldTwist
 from fieldnav.replay.foreign.shot import NS_PER_S
@@ -37,6 +38,11 @@ class Timeline:
         if odometry is not None:
             _check_clock(name, self._leading, "--odometry", odometry)
         self.begun_ns = min(each.next.stamp_ns for each in cameras.values() if each.next is not None)
+        if not 0 <= self.begun_ns <= LAST_NS:
+            raise SettingsError(
+                f"{name}: its first stamp is {self.begun_ns // NS_PER_S} s since 1970; "
+                f"allowed is one from 0 to {LAST_NS // NS_PER_S} s"
+            )
         if odometry is not None:
             odometry.step_over(self.begun_ns, back=False)
 

@@ -161,6 +161,17 @@ def test_cameras_of_two_clocks_are_refused_in_one_line(apart_ns: int) -> None:
         Timeline("two.mcap", cameras(two_clocks), CameraName.FRONT)
 
 
+@pytest.mark.parametrize("begins_ns", [-HOUR_NS, 2000 * YEAR_NS])
+def test_stamps_of_no_time_that_can_be_written_are_refused(begins_ns: int) -> None:
+    def strange(camera: CameraName, number: int, at_ns: int) -> tuple[int, int]:
+        return at_ns - BEGUN_NS + begins_ns, at_ns
+
+    with pytest.raises(
+        SettingsError, match=r"^bag: its first stamp is -?\d+ s since 1970; allowed is one from 0"
+    ):
+        Timeline("bag", cameras(strange), CameraName.FRONT)
+
+
 @pytest.mark.parametrize(
     "clocks",
     [
