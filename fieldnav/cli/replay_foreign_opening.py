@@ -16,8 +16,8 @@ from fieldnav.messages import CameraName
 from fieldnav.replay.foreign.camera import ForeignCamera
 from fieldnav.replay.foreign.container import Container, Told
 from fieldnav.replay.foreign.images import images
-from fieldnav.replay.foreign.joined import Joined, mcap_files
-from fieldnav.replay.foreign.mcap_file import SUFFIX, McapFile
+from fieldnav.replay.foreign.joined import SUFFIX, Joined, mcap_files
+from fieldnav.replay.foreign.mcap_file import McapFile
 from fieldnav.replay.foreign.odometry import odometry
 from fieldnav.replay.foreign.played import played
 from fieldnav.replay.foreign.ros_bag import RosBag, is_bag
@@ -46,10 +46,10 @@ class Opened:
 def opened(source: str, asked: "Foreign", robot: Robot) -> Opened:
     """Open a bag, an MCAP file, a video or a folder of pictures. Raises SettingsError."""
     path = Path(source)
+    if files := mcap_files(path):  # read by us, since rosbags wants every topic of them to be readable
+        return _container(Joined(source, [McapFile(each) for each in files]), asked, robot)
     if is_bag(path):
-        files = mcap_files(path)  # read by us, since rosbags wants every topic of them to be readable
-        bag = Joined(source, [McapFile(each) for each in files]) if files else RosBag(path)
-        return _container(bag, asked, robot)
+        return _container(RosBag(path), asked, robot)
     if path.is_file() and path.suffix.lower() == SUFFIX:
         return _container(McapFile(path), asked, robot)
     return _pictures(source, asked, robot)

@@ -11,6 +11,7 @@ from fieldnav.replay.foreign.container import Container, Told
 
 METADATA = "metadata.yaml"
 """What makes a folder a bag of ROS 2."""
+SUFFIX = ".mcap"
 INFORMATION, UNCOMPRESSED = "rosbag2_bagfile_information", ("", "none")
 
 
@@ -43,9 +44,14 @@ class Joined:
 def mcap_files(folder: Path) -> list[Path]:
     """The MCAP files of a bag of ROS 2 in order; none where it is another bag, or compressed as a whole.
 
-    What is wrong with its metadata, rosbags tells.
+    A recorder that was killed leaves no metadata; then they are all that a folder holds. What is wrong with
+    its metadata, rosbags tells.
     """
     try:
+        if not (folder / METADATA).exists():
+            files = [each for each in folder.iterdir() if each.is_file()] if folder.is_dir() else []
+            alone = all(each.suffix == SUFFIX for each in files)
+            return sorted(files, key=lambda each: (len(each.name), each.name)) if alone else []
         told = yaml.safe_load((folder / METADATA).read_text())[INFORMATION]
         whole = told.get("compression_mode", "").lower() in UNCOMPRESSED
         if told["storage_identifier"] != "mcap" or not whole:

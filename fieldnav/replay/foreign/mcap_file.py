@@ -23,7 +23,6 @@ from fieldnav.replay.foreign.ros import Definition, decoder
 from fieldnav.replay.foreign.shot import NS_PER_S
 from fieldnav.settings.one_line import one_line
 
-SUFFIX = ".mcap"
 ALLOWED = "allowed is a whole MCAP file, as `mcap recover` makes of a broken one"
 FOXGLOVE: Mapping[str, Any] = {FOXGLOVE_COMPRESSED: CompressedImage, FOXGLOVE_IMAGE: RawImage}
 NO_SCHEMA = "messages without a schema"

@@ -224,6 +224,11 @@ def test_the_files_of_a_bag_of_ros_2_are_one_recording(tmp_path: Path) -> None:
     assert [each.content.data for each in joined.read(TOPIC)] == 3 * PICTURES
     (tmp_path / "metadata.yaml").write_text("rosbag2_bagfile_information: [")
     assert mcap_files(tmp_path) == []
+    (tmp_path / "metadata.yaml").unlink()
+    (tmp_path / names[0]).rename(tmp_path / "bag_10.mcap")
+    assert [each.name for each in mcap_files(tmp_path)] == [*names[1:], "bag_10.mcap"]
+    (tmp_path / "0.jpg").touch()
+    assert mcap_files(tmp_path) == []
 
 
 def test_places_are_those_of_the_file(tmp_path: Path) -> None:
