@@ -65,8 +65,8 @@ def replay(
     pictures. The mission then drives by its pictures, with wheels of which only the speed is assumed, and
     leaves a run's directory. docs/replay.md tells what that shows.
 
-    Exit status: 0 when nothing differs or a foreign recording could be replayed, 1 when anything differs, 2
-    when the input is wrong.
+    Exit status: 0 when nothing differs or a foreign recording was replayed, 1 when anything differs or much
+    of a foreign recording was not looked at, 2 when the input is wrong or damaged.
     """
     facing, parent = Direction[direction.name], Path(out_dir) if out_dir else runs
     asked = Foreign(

@@ -18,6 +18,8 @@ if TYPE_CHECKING:
     from fieldnav.settings.robot import Robot
 
 USUAL_ROBOT = "bonnbot"
+NOT_LOOKED_AT = 1
+"""Exit status where much of a recording was not looked at."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -84,17 +86,19 @@ def replay_foreign(source: str, asked: Foreign, as_json: bool) -> int:
     else:
         out().print(report(order, driven))
         print(f"run directory: {driven.directory.path}")
-    return 0
+    return NOT_LOOKED_AT if driven.left_out else 0
 
 
 def _order(source: str, asked: Foreign) -> "Order":
     from fieldnav.cli.replay_foreign_opening import opened  # noqa: PLC0415 - as above
-    from fieldnav.replay.foreign.order import Order, begun_ns  # noqa: PLC0415
+    from fieldnav.replay.foreign.odometry import ToldTwist  # noqa: PLC0415
+    from fieldnav.replay.foreign.order import Order  # noqa: PLC0415
+    from fieldnav.replay.foreign.timeline import Timeline  # noqa: PLC0415
     from fieldnav.replay.foreign.wheels import steadily  # noqa: PLC0415
 
     crop, robot = _settings(asked)
     found = opened(source, asked, robot)
-    begun = begun_ns(found.cameras)
+    told = None if found.odometry is None else ToldTwist(found.odometry)
     speed_mps = crop.speeds.follow_mps if asked.speed_mps is None else asked.speed_mps
     steady = steadily(Twist(vx_mps=asked.direction.sign * speed_mps))
     return Order(
@@ -102,8 +106,8 @@ def _order(source: str, asked: Foreign) -> "Order":
         crop=crop,
         robot=robot,
         cameras=found.cameras,
-        begun_ns=begun,
-        moved=steady if found.odometry is None else found.odometry(begun),
+        timeline=Timeline(source, found.cameras, asked.direction.leading, told),
+        moved=told or steady,
         direction=asked.direction,
         lanes=asked.lanes or 1,
         side=asked.side,
@@ -111,6 +115,7 @@ def _order(source: str, asked: Foreign) -> "Order":
         again=asked.again,
         record=asked.record,
         seconds=found.seconds,
+        notes=found.notes,
         options={
             "lanes": asked.lanes or 1,
             "side": asked.side.value,

@@ -1,6 +1,6 @@
 """Opens what `fieldnav replay` is given, when it is no run of ours."""
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from math import isfinite
 from pathlib import Path
@@ -14,33 +14,40 @@ from fieldnav.cli.replay_foreign_options import FASTEST_HZ
 from fieldnav.errors import SettingsError
 from fieldnav.messages import CameraName
 from fieldnav.replay.foreign.camera import ForeignCamera
-from fieldnav.replay.foreign.container import Container
+from fieldnav.replay.foreign.container import Container, Told
 from fieldnav.replay.foreign.images import images
-from fieldnav.replay.foreign.mcap_file import SUFFIX, McapFile
-from fieldnav.replay.foreign.odometry import ToldTwist, odometry
+from fieldnav.replay.foreign.joined import SUFFIX, Joined, mcap_files
+from fieldnav.replay.foreign.mcap_file import McapFile
+from fieldnav.replay.foreign.odometry import odometry
 from fieldnav.replay.foreign.played import played
 from fieldnav.replay.foreign.ros_bag import RosBag, is_bag
 from fieldnav.replay.foreign.shot import Shot
-from fieldnav.replay.foreign.topics import image_topics
-from fieldnav.replay.foreign.wheels import Moved
+from fieldnav.replay.foreign.steps import in_order
+from fieldnav.replay.foreign.topics import image_topics, picture_topics
 from fieldnav.settings.robot import Robot
 
 if TYPE_CHECKING:
     from fieldnav.cli.replay_foreign import Foreign
 
+OFF_BY, OFF_SHARE = 2, 0.02
+"""The number of frames that a video's head tells is often reckoned from its length. Our choice."""
+
 
 @dataclass(frozen=True, slots=True)
 class Opened:
-    """The cameras of a recording, how long it is, and what tells of its motion from a beginning in ns on."""
+    """The cameras of a recording, how long it is, what tells of its motion, what of it is not looked at."""
 
     cameras: Mapping[CameraName, ForeignCamera]
     seconds: float
-    odometry: Callable[[int], Moved] | None = None
+    odometry: Iterator[Told] | None = None
+    notes: tuple[str, ...] = ()
 
 
 def opened(source: str, asked: "Foreign", robot: Robot) -> Opened:
     """Open a bag, an MCAP file, a video or a folder of pictures. Raises SettingsError."""
     path = Path(source)
+    if files := mcap_files(path):  # read by us, since rosbags wants every topic of them to be readable
+        return _container(Joined(source, [McapFile(each) for each in files]), asked, robot)
     if is_bag(path):
         return _container(RosBag(path), asked, robot)
     if path.is_file() and path.suffix.lower() == SUFFIX:
@@ -55,13 +62,15 @@ def _container(container: Container, asked: "Foreign", robot: Robot) -> Opened:
     named = {camera: topic for camera, topic in given.items() if topic is not None}
     topics = image_topics(container, named, asked.direction.leading)
     cameras = {
-        camera: ForeignCamera(camera, robot.cameras.get(camera), images(container, topic))
+        camera: ForeignCamera(
+            camera, robot.cameras.get(camera), in_order(images(container, topic)), container.counts[topic]
+        )
         for camera, topic in topics.items()
     }
-    if asked.odometry is None:
-        return Opened(cameras, container.seconds)
-    told = odometry(container, asked.odometry)
-    return Opened(cameras, container.seconds, lambda begun_ns: ToldTwist(told, begun_ns))
+    told = None if asked.odometry is None else odometry(container, asked.odometry)
+    others = picture_topics(container).keys() - topics.values()
+    notes = [f"not looked at: {topic}, {container.counts[topic]} pictures" for topic in sorted(others)]
+    return Opened(cameras, container.seconds, told, tuple(notes))
 
 
 def _pictures(source: str, asked: "Foreign", robot: Robot) -> Opened:
@@ -73,17 +82,19 @@ def _pictures(source: str, asked: "Foreign", robot: Robot) -> Opened:
     sources = {front: source} | ({} if asked.rear is None else {CameraName.REAR: asked.rear})
     cameras, seconds = {}, 0.0
     for camera, each in sources.items():
-        shots, lasts_s = _played(each, asked.rate_hz)
-        cameras[camera] = ForeignCamera(camera, robot.cameras.get(camera), shots)
+        shots, count, lasts_s = _played(each, asked.rate_hz)
+        off = 0 if Path(each).is_dir() else OFF_BY + round(OFF_SHARE * count)
+        cameras[camera] = ForeignCamera(camera, robot.cameras.get(camera), shots, count, off)
         seconds = max(seconds, lasts_s)
     return Opened(cameras, seconds)
 
 
-def _played(source: str, rate_hz: float | None) -> tuple[Iterator[Shot], float]:
+def _played(source: str, rate_hz: float | None) -> tuple[Iterator[Shot], int, float]:
+    """The pictures, how many they are, how long they last."""
     frames = frames_of(source)
     if rate_hz is None:
         rate_hz = _video_rate_hz(source)
-    return played(frames.images, rate_hz), frames.expected / rate_hz
+    return played(frames.images, rate_hz), frames.expected, frames.expected / rate_hz
 
 
 def _video_rate_hz(source: str) -> float:

@@ -1,6 +1,7 @@
 """What a foreign replay came to, for a person and for a program."""
 
 import json
+from dataclasses import asdict
 from typing import TYPE_CHECKING, Any
 
 from rich.console import Group, RenderableType
@@ -26,7 +27,9 @@ AS_GOOD_AS_NONE = 0.1
 
 def report(order: "Order", driven: "Driven") -> RenderableType:
     """The transitions in a table, above them what was assumed, below them how well rows were seen."""
-    frames = ", ".join(f"{camera.frames} {name.value}" for name, camera in order.cameras.items())
+    frames = ", ".join(
+        f"{camera.frames} of {camera.counts.total} {name.value}" for name, camera in order.cameras.items()
+    )
     head = f"{order.name}: {clock(driven.summary.duration_s)} replayed, frames: {frames}"
     notes = [Text(said, style="yellow") for said in _notes(order, driven)]
     return Group(
@@ -44,6 +47,10 @@ def document(order: "Order", driven: "Driven") -> dict[str, Any]:
         "run": str(driven.directory.path),
         "source": order.name,
         "frames": {name.value: camera.frames for name, camera in order.cameras.items()},
+        "pictures": {
+            name.value: asdict(camera.counts) | {"not_looked_at": camera.counts.not_looked_at}
+            for name, camera in order.cameras.items()
+        },
         "notes": _notes(order, driven),
         "ground_share": driven.ground_share,
         "seen": driven.seen.model_dump() | {"share": driven.seen.share},

@@ -47,7 +47,9 @@ class Piece:
         try:
             fcntl.flock(self._file, fcntl.LOCK_EX)
             self._file.truncate(0)  # a reader that came before the lock may have taken it for a broken one
-            self._writer = Writer(self._file, chunk_size=CHUNK_BYTES, compression=CompressionType.NONE)
+            self._writer = Writer(
+                self._file, chunk_size=CHUNK_BYTES, compression=CompressionType.NONE, enable_data_crcs=True
+            )
             self._writer.start(profile="", library=f"fieldnav {__version__}")
             self._writer.add_metadata(METADATA, {BEGUN: begun_utc.isoformat(), "version": __version__})
             self._file.flush()

@@ -15,6 +15,12 @@ def piece_path(directory: RunDirectory, number: int) -> Path:
     return first if number == 1 else first.with_name(f"{first.stem}-{number:04}{first.suffix}")
 
 
+def number_of(path: Path) -> int:
+    """Of a piece, counted from 1, by its name."""
+    later = LATER.search(path.stem)
+    return int(later[1]) if later else 1
+
+
 def pieces_in(directory: RunDirectory) -> dict[int, Path]:
     """The pieces of a run by their numbers, in order. Raises OSError."""
     first = directory.recording

@@ -20,6 +20,7 @@ from fieldnav.recording.message import Topic
 from fieldnav.recording.message_indexes import ENTRY_BYTES, INDEX_HEAD
 from fieldnav.recording.opening import Reading, opened
 from fieldnav.recording.piece import BEGUN, METADATA
+from fieldnav.recording.soundness import check_sound
 from fieldnav.recording.stamps import Stamps
 from fieldnav.recording.walk import CHUNK_HEAD, HEAD, LENGTH, read_at
 
@@ -77,6 +78,10 @@ class PieceReader:
             asked = entries[(entries[:, 0] >= begin_ns) & (entries[:, 0] <= end_ns)]
             for offset in np.sort(asked[:, 1]).tolist():
                 yield self._message(self._chunks[chunk], offset)
+
+    def check(self) -> None:
+        """Read the whole file. Raises FieldnavError for what is not as it was written."""
+        check_sound(self.path, self._opened)
 
     def close(self) -> None:
         self._file.close()

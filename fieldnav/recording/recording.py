@@ -14,7 +14,7 @@ from fieldnav.messages import CameraName
 from fieldnav.recording.message import Topic
 from fieldnav.recording.opening import Reading, existing_file
 from fieldnav.recording.picture import Picture, pictured, same
-from fieldnav.recording.piece_names import pieces_in
+from fieldnav.recording.piece_names import number_of, piece_path, pieces_in
 from fieldnav.recording.piece_reader import PieceReader, Read
 from fieldnav.recording.records import Gap, Record, Round, Seen, Stepped, Ticked
 from fieldnav.recording.stamps import NS_PER_US
@@ -96,6 +96,18 @@ class Recording:
                 if same(read.sequence, seen.sequence):
                     return pictured(seen, read.data)
         return None
+
+    def check(self) -> None:
+        """Read all of it. Raises FieldnavError for a file that is not as it was written."""
+        for piece in self._pieces:
+            piece.check()
+
+    @property
+    def lacking(self) -> list[str]:
+        """The files that are not there, between the first and the last of those that are."""
+        found = [number_of(piece.path) for piece in self._pieces]
+        absent = set(range(min(found), max(found))) - set(found)
+        return [piece_path(self._directory, number).name for number in sorted(absent)]
 
     def close(self) -> None:
         for piece in self._pieces:

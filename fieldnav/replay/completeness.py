@@ -40,14 +40,14 @@ class Completeness:
         for seq in taken.round.lines:
             self._missing.pop(seq, None)
 
-    def said(self) -> list[str]:
-        """A sentence for each thing that lacks."""
+    def said(self, to_the_end: bool = True) -> list[str]:
+        """A sentence for each thing that lacks; to_the_end: all rounds of the recording were taken in."""
         said = []
         if self._pictures:
             said.append(f"{self._pictures} pictures are not in the recording")
         if self._rounds:
             said.append(f"{self._rounds} rounds are not in the recording")
-        if self._missing:
+        if self._missing and to_the_end:
             first = min(self._missing.values(), key=lambda line: line.seq)
             said.append(
                 f"{len(self._missing)} lines of the journal, the first at {clock(first.stamp_s)}, "

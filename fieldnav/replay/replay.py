@@ -42,8 +42,10 @@ def replay(
     if recording is None:
         raise FieldnavError(f"{directory.recording}: is not there; allowed is a run that was recorded")
     cv2.setNumThreads(1)
-    with recording, closing(_Replay(directory, recording, lines, then, now or then)) as going:
-        return going.run(tell)
+    with recording:
+        recording.check()  # a flipped byte need not show in anything that is compared
+        with closing(_Replay(directory, recording, lines, then, now or then)) as going:
+            return going.run(tell)
 
 
 class _Replay:
@@ -118,7 +120,9 @@ class _Replay:
         found = [*self._following.differences]
         if not self._changed:  # other settings are other thresholds, and so judged otherwise everywhere
             found += [*self._following.judged, *self._notes]
-        incomplete = [self._astray] if self._astray else self._complete.said()
+        absent = [f"{name} is not there" for name in self._recording.lacking]
+        astray = [self._astray] if self._astray else []
+        incomplete = [*absent, *astray, *self._complete.said(to_the_end=not astray)]
         return Replayed(
             run=self._name,
             changed=self._changed,

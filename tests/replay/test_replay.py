@@ -10,6 +10,8 @@ from fieldnav.errors import FieldnavError
 from fieldnav.journal.directory import RunDirectory
 from fieldnav.journal.journal import read
 from fieldnav.journal.resolved import Settings, read_settings
+from fieldnav.recording.piece import Piece, new_file
+from fieldnav.recording.piece_names import piece_path
 from fieldnav.replay.difference import Kind
 from fieldnav.replay.replay import replay
 
@@ -108,6 +110,27 @@ def test_a_recording_that_broke_off_is_replayed_as_far_as_it_goes(
     assert not done.commands.rounds
     assert "lines of the journal, the first at" in done.incomplete[0]
     assert not done.same
+
+
+def test_a_flipped_byte_in_what_is_not_compared_is_told_all_the_same(
+    recorded: RunDirectory, tmp_path: Path
+) -> None:
+    copy = RunDirectory(shutil.copytree(recorded.path, tmp_path / "run"))
+    content = bytearray(copy.recording.read_bytes())
+    content[content.index(b"Follow.Tracking")] ^= 1
+    copy.recording.write_bytes(content)
+
+    with pytest.raises(FieldnavError, match=r"recording\.mcap: is damaged: the chunk at byte \d+"):
+        replay(copy, read_settings(copy.settings))
+
+
+def test_a_file_of_the_recording_that_lacks_is_named(recorded: RunDirectory, tmp_path: Path) -> None:
+    copy = RunDirectory(shutil.copytree(recorded.path, tmp_path / "run"))
+    Piece(piece_path(copy, 3), read(copy.journal)[0].utc, new_file).close()
+
+    done = replay(copy, read_settings(copy.settings))
+
+    assert done.incomplete == ("recording-0002.mcap is not there",) and not done.same
 
 
 def test_a_run_without_recording_says_so(recorded: RunDirectory, tmp_path: Path) -> None:

@@ -10,6 +10,7 @@ from states.names import Event, Follow, Phase
 
 UNCHECKED = "a recording is driven without the checks of a robot"
 ANEW = "begun anew, as asked for, in what follows of the recording"
+BEHIND = "begun anew behind the step in the stamps"
 
 
 def begin(mission: Mission, operating: Operating, now_s: float, direction: Direction) -> None:
@@ -26,9 +27,11 @@ def begin(mission: Mission, operating: Operating, now_s: float, direction: Direc
     course.chronicle.tell(now_s, course.leaf, change, step, NOTHING_SENT)
 
 
-def begin_anew(mission: Mission, operating: Operating, now_s: float, direction: Direction) -> None:
+def begin_anew(
+    mission: Mission, operating: Operating, now_s: float, direction: Direction, reason: str
+) -> None:
     """After a stop: forget the lane and look for one, as if a person had set the robot going again."""
     course = mission.course
-    course.go(now_s, Step(event=Event.RESET, reason=ANEW))
+    course.go(now_s, Step(event=Event.RESET, reason=reason))
     course.behaviours.lane = LaneMemory(number=1)
     begin(mission, operating, now_s, direction)

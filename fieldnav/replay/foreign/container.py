@@ -2,6 +2,7 @@
 
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
+from itertools import chain, islice
 from typing import Any, Protocol
 
 from fieldnav.replay.foreign.shot import NS_PER_S
@@ -14,12 +15,24 @@ IMAGES = (ROS_IMAGE, ROS_COMPRESSED, FOXGLOVE_IMAGE, FOXGLOVE_COMPRESSED)
 """The types of pictures that are read, compressed or not."""
 COMPRESSED = (ROS_COMPRESSED, FOXGLOVE_COMPRESSED)
 
+Decoder = Callable[[bytes], Any]
+
+
+@dataclass(frozen=True, slots=True)
+class Written:
+    """One message as a file holds it, and when it was written."""
+
+    written_ns: int
+    type: str
+    content: Any
+
 
 @dataclass(frozen=True, slots=True)
 class Told:
-    """One message, and when what it tells of was so: by its header, else when it was written."""
+    """One message with when what it tells of was so, by the clock of its headers, and when it was written."""
 
     stamp_ns: int
+    written_ns: int
     type: str
     content: Any
 
@@ -38,6 +51,11 @@ class Container(Protocol):
         ...
 
     @property
+    def counts(self) -> Mapping[str, int]:
+        """How many messages each topic has, as far as the file tells."""
+        ...
+
+    @property
     def seconds(self) -> float:
         """How long it is."""
         ...
@@ -50,15 +68,29 @@ class Container(Protocol):
         ...
 
 
-def stamped(log_ns: int, kind: str, content: Any) -> Told:
-    """A message with the stamp of its header, if that has one."""
-    if kind.startswith("foxglove."):
-        moment = content.timestamp
-        header_ns = moment.seconds * NS_PER_S + moment.nanos
-    else:
-        moment = content.header.stamp
-        header_ns = moment.sec * NS_PER_S + moment.nanosec
-    return Told(header_ns or log_ns, kind, content)
+def stamped(messages: Iterator[Written]) -> Iterator[Told]:
+    """The messages with the stamps of their headers.
+
+    A header without a stamp, or with the stamp of the message before, tells nothing. Then it counts when the
+    message was written, on the headers' clock if one of the first two headers shows that. A stamp of 0 before
+    a later one is the beginning of simulated time.
+    """
+    beginning = list(islice(messages, 2))
+    heads = [_header_ns(each) for each in beginning]
+    ahead_ns = next((head - each.written_ns for head, each in zip(heads, beginning, strict=True) if head), 0)
+    before_ns = -1 if any(heads) else 0
+    for each in chain(beginning, messages):
+        head_ns = _header_ns(each)
+        if head_ns == before_ns or (head_ns == 0 and before_ns > 0):
+            stamp_ns = each.written_ns + ahead_ns
+        else:
+            stamp_ns, ahead_ns, before_ns = head_ns, head_ns - each.written_ns, head_ns
+        yield Told(stamp_ns, each.written_ns, each.type, each.content)
 
 
-Decoder = Callable[[bytes], Any]
+def _header_ns(message: Written) -> int:
+    if message.type.startswith("foxglove."):
+        moment = message.content.timestamp
+        return int(moment.seconds * NS_PER_S + moment.nanos)
+    moment = message.content.header.stamp
+    return int(moment.sec * NS_PER_S + moment.nanosec)

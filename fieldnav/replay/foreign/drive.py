@@ -22,9 +22,10 @@ from fieldnav.mission.loop import TICK_S, Mission
 from fieldnav.mission.operating import Operating
 from fieldnav.mission.tape import Tape, taping
 from fieldnav.mission.taped_camera import taped_cameras
-from fieldnav.replay.foreign.beginning import begin, begin_anew
+from fieldnav.replay.foreign.beginning import ANEW, BEHIND, begin, begin_anew
 from fieldnav.replay.foreign.camera import AbsentCamera
 from fieldnav.replay.foreign.ground_speed import GroundSpeed
+from fieldnav.replay.foreign.left_out import LeftOut, replayed_until
 from fieldnav.replay.foreign.order import Order
 from fieldnav.replay.foreign.sightings import Seen, Sightings
 from fieldnav.replay.foreign.wheels import AssumedWheels
@@ -43,7 +44,7 @@ class Driven:
     """A foreign replay that has ended.
 
     ground_share: of the assumed speed, at which the ground moves through the pictures, if that is known.
-    said: what a person should know of the cameras.
+    said: what a person should know of the cameras. left_out: whether much of the recording was not looked at.
     """
 
     directory: RunDirectory
@@ -51,6 +52,7 @@ class Driven:
     seen: Seen
     ground_share: float | None
     said: tuple[str, ...]
+    left_out: bool
 
 
 def drive(order: Order, tell: Tell | None = None) -> Driven:
@@ -59,13 +61,14 @@ def drive(order: Order, tell: Tell | None = None) -> Driven:
     Raises OutputError, and SettingsError where a file turns out to be broken: what was driven is kept.
     """
     cv2.setNumThreads(1)
+    begun_utc = order.begun_utc
     directory = RunDirectory.create(order.parent, _named(order.name), datetime.now(UTC))
     write_settings(directory.settings, order.crop, order.robot, options=order.options)
     absent = {name: AbsentCamera(name) for name in CameraName if name not in order.cameras}
     figures, sightings, ground = Figures(order.lanes), Sightings(), GroundSpeed(order.robot)
     with ExitStack() as stack:
-        tape = stack.enter_context(taping(directory, order.robot, order.begun_utc, order.record, waits=True))
-        journal = stack.enter_context(Journal(directory.journal, order.begun_utc, tape.line))
+        tape = stack.enter_context(taping(directory, order.robot, begun_utc, order.record, waits=True))
+        journal = stack.enter_context(Journal(directory.journal, begun_utc, tape.line))
         mission = Mission(
             order.robot,
             _task(order),
@@ -81,8 +84,15 @@ def drive(order: Order, tell: Tell | None = None) -> Driven:
         finally:
             summary = figures.summary(time.perf_counter() - started, Headland(), None)
             write_summary(directory.summary, summary)
-    said = [*(each.said for each in order.cameras.values()), *(each.said for each in absent.values())]
-    return Driven(directory, summary, sightings.seen, ground.share, tuple(filter(None, said)))
+    left_out = LeftOut(order.cameras.values(), order.again, summary.completed)
+    said = (*order.notes, *_told(order), *left_out.said, *(each.said for each in absent.values()))
+    much = left_out.much or not sightings.seen.frames
+    return Driven(directory, summary, sightings.seen, ground.share, said, much)
+
+
+def _told(order: Order) -> list[str]:
+    """What is to be told of the stamps and the pictures."""
+    return [*order.timeline.steps, *(note for camera in order.cameras.values() for note in camera.notes)]
 
 
 def _go(mission: Mission, order: Order, tape: Tape, tell: Tell | None) -> None:
@@ -93,7 +103,7 @@ def _go(mission: Mission, order: Order, tape: Tape, tell: Tell | None) -> None:
         ticks += 1
         now_s = ticks * TICK_S
         try:
-            if not _more(order, now_s):
+            if not _more(mission, operating, order, now_s):
                 operating.end(now_s, ENDED)
                 return
             operating.tick(now_s)
@@ -102,23 +112,31 @@ def _go(mission: Mission, order: Order, tape: Tape, tell: Tell | None) -> None:
             raise
         except SettingsError as error:
             operating.end(now_s, str(error))
-            raise
-        if order.again and mission.course.ended_s is not None:
-            begin_anew(mission, operating, now_s, order.direction)
+            raise SettingsError(f"{error}; {replayed_until(order.cameras.values())}") from error
         if tell is not None:
             tell(now_s, order.seconds)
 
 
-def _more(order: Order, now_s: float) -> bool:
+def _more(mission: Mission, operating: Operating, order: Order, now_s: float) -> bool:
     """Read on to this time; whether there is more of the recording. Raises SettingsError for a broken file.
 
-    All that can be broken is read here, and not within a round, whose faults are the robot's.
+    All that can be broken is read here, and not within a round, whose faults are the robot's. A mission that
+    stands begins anew behind a step in the stamps, and, where that is asked, with the next picture.
     """
-    if all(camera.ended for camera in order.cameras.values()):
+    timeline = order.timeline
+    if timeline.ended(now_s):
         return False
-    for camera in order.cameras.values():
-        camera.advance(now_s, order.begun_ns)
+    if step := timeline.step(now_s):
+        operating.end(now_s, step)
+        timeline.step_over(now_s)
+        begin_anew(mission, operating, now_s, order.direction, BEHIND)
+    came = timeline.advance(now_s)
     order.moved(now_s)
+    if order.again and not mission.course.moving and came[order.direction.leading]:
+        begin_anew(mission, operating, now_s, order.direction, ANEW)
+    if not mission.course.moving:
+        for name, count in came.items():
+            order.cameras[name].counts.idle += count
     return True
 
 

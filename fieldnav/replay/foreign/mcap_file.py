@@ -6,8 +6,7 @@ from typing import Any
 
 from foxglove_schemas_protobuf.CompressedImage_pb2 import CompressedImage
 from foxglove_schemas_protobuf.RawImage_pb2 import RawImage
-from mcap.reader import make_reader
-from mcap.records import Schema
+from mcap.records import Channel
 from mcap.well_known import MessageEncoding
 
 from fieldnav.errors import SettingsError
@@ -16,38 +15,34 @@ from fieldnav.replay.foreign.container import (
     FOXGLOVE_IMAGE,
     Decoder,
     Told,
+    Written,
     stamped,
 )
-from fieldnav.replay.foreign.ros import rosbags
+from fieldnav.replay.foreign.mcap_index import McapIndex, counts_of, index_of, messages_at
+from fieldnav.replay.foreign.ros import Definition, decoder
 from fieldnav.replay.foreign.shot import NS_PER_S
 from fieldnav.settings.one_line import one_line
 
-SUFFIX = ".mcap"
-ALLOWED = "allowed is a whole MCAP file with its index, as `mcap recover` makes of a broken one"
+ALLOWED = "allowed is a whole MCAP file, as `mcap recover` makes of a broken one"
 FOXGLOVE: Mapping[str, Any] = {FOXGLOVE_COMPRESSED: CompressedImage, FOXGLOVE_IMAGE: RawImage}
+NO_SCHEMA = "messages without a schema"
 
 
 class McapFile:
-    """The Container over an MCAP file."""
+    """The Container over an MCAP file; of its topics only those that are asked for are decoded."""
 
     def __init__(self, path: Path) -> None:
         """Raises SettingsError where the file cannot be read."""
         self._path = path
         try:
             with path.open("rb") as file:
-                summary = make_reader(file).get_summary()
+                self._index = index_of(file)
         except Exception as error:  # of many kinds, for what is broken here and there
-            raise self._broken(error) from error
-        if summary is None or summary.statistics is None:
-            raise self._broken(SettingsError("it has no index"))
-        count = summary.statistics
-        self._seconds = (count.message_end_time - count.message_start_time) / NS_PER_S
-        schemas = summary.schemas
-        self._topics = {
-            each.topic: _type(schemas[each.schema_id].name, each.message_encoding)
-            for each in summary.channels.values()
-            if each.schema_id in schemas
-        }
+            raise self._broken(str(error) or type(error).__name__) from error
+        if self._index.damage and not self._index.channels:
+            raise self._broken(self._index.damage)
+        self._topics = {each.topic: _type(self._index, each) for each in self._index.channels.values()}
+        self._counts = counts_of(self._index)
 
     @property
     def name(self) -> str:
@@ -58,44 +53,64 @@ class McapFile:
         return self._topics
 
     @property
+    def counts(self) -> Mapping[str, int]:
+        return self._counts
+
+    @property
     def seconds(self) -> float:
-        return self._seconds
+        return (self._index.last_ns - self._index.first_ns) / NS_PER_S
 
     def read(self, topic: str) -> Iterator[Told]:
-        kind, decoder = self._topics[topic], None
+        return stamped(self._written(topic))
+
+    def _written(self, topic: str) -> Iterator[Written]:
+        kind, index = self._topics[topic], self._index
+        wanted = {
+            number: each
+            for number, each in index.channels.items()
+            if each.topic == topic and _type(index, each) == kind
+        }
         try:
+            decoders = {number: self._decoder(kind, each) for number, each in wanted.items()}
             with self._path.open("rb") as file:
-                for schema, channel, message in make_reader(file).iter_messages([topic]):
-                    if schema is not None:
-                        decoder = decoder or self._decoder(kind, schema, channel.message_encoding)
-                        yield stamped(message.log_time, kind, decoder(message.data))
+                for place in index.places:
+                    if place.channels is not None and place.channels.isdisjoint(wanted):
+                        continue
+                    for message in messages_at(file, place):
+                        if message.channel in wanted:
+                            yield Written(message.written_ns, kind, decoders[message.channel](message.data))
         except SettingsError:
             raise
         except Exception as error:  # as above
-            raise self._broken(error) from error
+            raise self._broken(str(error) or type(error).__name__) from error
+        if index.damage:
+            raise self._broken(index.damage)
 
-    def _decoder(self, kind: str, schema: Schema, encoding: str) -> Decoder:
+    def _decoder(self, kind: str, channel: Channel) -> Decoder:
         """What makes messages of bytes. Raises SettingsError where rosbags is needed and lacks."""
+        encoding = channel.message_encoding
         if encoding == MessageEncoding.Protobuf:
             made: Decoder = FOXGLOVE[kind].FromString
             return made
-        _, types = rosbags(self.name)
-        store = types.get_typestore(types.Stores.EMPTY)
-        store.register(types.get_types_from_msg(schema.data.decode(), kind))
-        read = store.deserialize_cdr if encoding == MessageEncoding.CDR else store.deserialize_ros1
-        return lambda data: read(data, kind)
+        schema = self._index.schemas[channel.schema_id]
+        text = schema.data.decode(errors="replace")
+        return decoder(
+            self.name, Definition(kind, text, "idl" in schema.encoding, encoding == MessageEncoding.ROS1)
+        )
 
-    def _broken(self, error: Exception) -> SettingsError:
-        said = one_line(str(error)) or type(error).__name__
-        return SettingsError(f"{self.name}: cannot be read: {said}; {ALLOWED}")
+    def _broken(self, said: str) -> SettingsError:
+        return SettingsError(f"{self.name}: cannot be read: {one_line(said)}; {ALLOWED}")
 
 
-def _type(name: str, encoding: str) -> str:
+def _type(index: McapIndex, channel: Channel) -> str:
     """The type of a topic, by ROS 2's name where it is one of ROS 1; no known one for JSON."""
-    match encoding:
+    schema = index.schemas.get(channel.schema_id)
+    if schema is None:
+        return NO_SCHEMA
+    match channel.message_encoding:
         case MessageEncoding.ROS1:
-            return name.replace("/", "/msg/", 1)
+            return schema.name.replace("/", "/msg/", 1)
         case MessageEncoding.CDR | MessageEncoding.Protobuf:
-            return name
+            return schema.name
         case _:
-            return f"{name} as {encoding}"
+            return f"{schema.name} as {channel.message_encoding}"

@@ -9,4 +9,5 @@ from fieldnav.replay.foreign.shot import NS_PER_S, Shot
 def played(pictures: Iterator[tuple[str, Image]], rate_hz: float) -> Iterator[Shot]:
     """Each picture, with its name, at its time since the first."""
     for number, (name, image) in enumerate(pictures):
-        yield Shot(name, round(number * NS_PER_S / rate_hz), lambda image=image: image)  # type: ignore[misc]
+        at_ns = round(number * NS_PER_S / rate_hz)
+        yield Shot(name, at_ns, at_ns, lambda image=image: image)  # type: ignore[misc]

@@ -98,6 +98,14 @@ def robot_file(tmp_path_factory: pytest.TempPathFactory) -> str:
     return str(path)
 
 
+Clocks = Callable[[CameraName, int, int], tuple[int, int]]
+
+
+def in_step(camera: CameraName, number: int, at_ns: int) -> tuple[int, int]:
+    """Stamps and times of writing as they truly were."""
+    return at_ns, at_ns
+
+
 class Recordings:
     """Writes a drive as others would; rear: with the rear camera, in a bag or an MCAP."""
 
@@ -120,15 +128,22 @@ class Recordings:
             self._fill(bag, store, store.serialize_cdr, changes)
         return str(path)
 
-    def mcap(self) -> str:
-        """Foxglove's compressed images, of both cameras."""
+    def mcap(self, clocks: Clocks = in_step, only: slice = slice(None), **changes: Any) -> str:
+        """Foxglove's compressed images, of both cameras.
+
+        clocks: stamp and time of writing, by camera, number and true time. only: of the pictures in order.
+        changes: to messages.
+        """
         path = self._folder / "other.mcap"
+        numbers = dict.fromkeys(CameraName, 0)
         with path.open("wb") as file, McapWriter(file) as writer:
-            for each in self._drive.pictures:
-                seconds, nanos = divmod(each.stamp_ns, NS_PER_S)
+            for each in self._drive.pictures[only]:
+                numbers[each.camera] += 1
+                stamp_ns, written_ns = clocks(each.camera, numbers[each.camera], each.stamp_ns)
+                seconds, nanos = divmod(stamp_ns, NS_PER_S)
                 stamp = Timestamp(seconds=seconds, nanos=nanos)
-                message = CompressedImage(timestamp=stamp, data=each.jpeg, format="jpeg")
-                writer.write_message(TOPICS[each.camera], message, each.stamp_ns, each.stamp_ns)
+                fields = {"timestamp": stamp, "data": each.jpeg, "format": "jpeg"} | changes
+                writer.write_message(TOPICS[each.camera], CompressedImage(**fields), written_ns, written_ns)
         return str(path)
 
     def video(self, camera: CameraName = CameraName.FRONT) -> str:
@@ -249,10 +264,10 @@ def asked(robot_file: str, tmp_path: Path) -> Callable[..., Foreign]:
 def replayed(
     asked: Callable[..., Foreign], capsys: pytest.CaptureFixture[str]
 ) -> Callable[..., dict[str, Any]]:
-    """Replays a recording; what `--json` prints."""
+    """Replays a recording; what `--json` prints. status: 1 where much of it was not looked at."""
 
-    def replayed(source: str, **given: Any) -> dict[str, Any]:
-        assert replay_foreign(source, asked(**given), as_json=True) == 0
+    def replayed(source: str, status: int = 0, **given: Any) -> dict[str, Any]:
+        assert replay_foreign(source, asked(**given), as_json=True) == status
         document: dict[str, Any] = json.loads(capsys.readouterr().out)
         return document
 

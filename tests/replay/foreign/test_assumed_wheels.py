@@ -44,7 +44,7 @@ def test_at_the_very_beginning_they_stand() -> None:
 def message(stamp_ns: int, vx_mps: float) -> Told:
     linear, angular = SimpleNamespace(x=vx_mps, y=0.0), SimpleNamespace(z=0.1)
     twist = SimpleNamespace(twist=SimpleNamespace(twist=SimpleNamespace(linear=linear, angular=angular)))
-    return Told(stamp_ns, "nav_msgs/msg/Odometry", twist)
+    return Told(stamp_ns, stamp_ns, "nav_msgs/msg/Odometry", twist)
 
 
 def test_odometry_holds_until_the_next_word_and_not_for_long() -> None:

@@ -110,12 +110,13 @@ def test_backward_the_rear_camera_leads(recordings: Any, drive: Any, replayed: R
 
 
 def test_without_a_rear_camera_the_exit_says_that_it_lacks(recordings: Any, replayed: Replayed) -> None:
-    done = replayed(recordings.mcap(), front=BOTH["front"])
+    done = replayed(recordings.mcap(), status=1, front=BOTH["front"])
 
     last = done["transitions"][-1]
     assert last["event"] == "fail" and last["source"] == "Forward.Exit"
     assert "the recording has no rear camera" in last["reason"]
     assert not done["summary"]["completed"]
+    assert any("after the mission had stopped (see --again)" in note for note in done["notes"])
 
 
 def test_the_end_of_the_recording_ends_the_run(recordings: Any, replayed: Replayed, drive: Any) -> None:

@@ -3,13 +3,17 @@
 import sys
 from collections.abc import Callable
 from pathlib import Path
-from typing import Any
+from typing import Any, ClassVar
 
 import pytest
 
 from fieldnav.cli.replay_foreign import Foreign, is_foreign, refuse_for_run, replay_foreign
+from fieldnav.cli.replay_foreign_opening import opened
 from fieldnav.errors import SettingsError
 from fieldnav.journal.journal import read
+from fieldnav.messages import CameraName
+from fieldnav.replay.foreign.topics import image_topics
+from fieldnav.settings.loading import load_robot
 
 Asked = Callable[..., Foreign]
 FRONT = {"front": "/front/image_raw"}
@@ -44,6 +48,31 @@ def test_of_two_topics_with_pictures_one_must_be_named(recordings: Any, asked: A
     line = refused(recordings.mcap(), asked())
 
     assert "no topic is named; allowed are /front/image_raw (foxglove.CompressedImage), /rear" in line
+
+
+def test_topics_that_nobody_named_are_told_and_a_file_without_pictures_lists_what_it_holds(
+    recordings: Any, asked: Asked
+) -> None:
+    source = recordings.mcap()
+
+    notes = opened(source, asked(**FRONT), load_robot("bonnbot")).notes
+
+    assert notes[0].startswith("not looked at: /rear/image_raw/compressed, ")
+    with pytest.raises(
+        SettingsError, match=r"it holds no topic with pictures; .*; it holds /odom \(nav_msgs"
+    ):
+        image_topics(NoPictures(), {}, CameraName.FRONT)
+
+
+class NoPictures:
+    """A container of odometry alone."""
+
+    name, seconds = "odometry.bag", 1.0
+    topics: ClassVar = {"/odom": "nav_msgs/msg/Odometry"}
+    counts: ClassVar = {"/odom": 7}
+
+    def read(self, topic: str) -> Any:
+        raise AssertionError("nobody reads it")
 
 
 def test_the_leading_camera_may_not_be_left_out(recordings: Any, asked: Asked) -> None:
@@ -88,7 +117,7 @@ def test_what_was_driven_before_a_file_breaks_is_kept(recordings: Any, asked: As
 
     line = refused(str(folder), asked(rate_hz=15.0))
 
-    assert "90.jpg" in line
+    assert "90.jpg" in line and "pictures replayed until then: 90 of" in line
     (run,) = (tmp_path / "runs").iterdir()
     last = read(run / "journal.jsonl")[-1]
     assert last.event == "fail" and "90.jpg" in last.reason and last.stamp_s == pytest.approx(6.0, abs=0.1)
