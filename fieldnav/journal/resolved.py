@@ -5,13 +5,11 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
-import yaml
-
 from fieldnav import __version__
 from fieldnav.errors import SettingsError
 from fieldnav.journal.files import write_atomically
 from fieldnav.settings.crop import CropProfile
-from fieldnav.settings.documents import parse_mapping, read_text
+from fieldnav.settings.documents import parse_mapping, read_text, written
 from fieldnav.settings.field import FieldSettings
 from fieldnav.settings.loading import checked
 from fieldnav.settings.robot import Robot
@@ -43,7 +41,7 @@ def write_settings(
     document: dict[str, object] = {"fieldnav": __version__, "options": dict(options or {})}
     parts = {"crop": crop, "robot": robot, "field": field}
     document |= {name: part.model_dump(mode="json") for name, part in parts.items() if part is not None}
-    text = HEADER + yaml.safe_dump(document, sort_keys=False, allow_unicode=True, width=110)
+    text = HEADER + written(document)
     write_atomically(path, text.encode())
 
 

@@ -11,6 +11,7 @@ from pydantic_core import ErrorDetails
 
 from fieldnav.settings.found import Found, find, is_enum, is_model, known_part
 from fieldnav.settings.one_line import one_line
+from fieldnav.settings.scalars import written_out
 
 LONGEST_VALUE = 40
 """Characters of a bad value that are quoted; the rest would bury the message."""
@@ -63,7 +64,15 @@ def _line(problem: ErrorDetails, model: type[BaseModel], called: Mapping[str, st
             if is_model(found.kind):  # the reason names what in the group does not go together
                 return f"{key}: {reason}" if key else reason
             return f"{key}: {value}: {reason}"
-    return f"{key}: {value} is not allowed; allowed is {_allowed(found)}"
+    return f"{key}: {value} is not allowed; allowed is {_allowed(found)}{_instead(found, problem['input'])}"
+
+
+def _instead(found: Found, value: object) -> str:
+    """Advice on text where a number belongs, if that text looks like one."""
+    if found.kind not in (int, float) or not isinstance(value, str):
+        return ""
+    number = written_out(value)
+    return f"; write {number}" if number else ""
 
 
 def nearest(word: str, known: Sequence[str]) -> str:

@@ -11,6 +11,7 @@ from fieldnav.settings.model import Settings
 from fieldnav.settings.one_line import one_line
 from fieldnav.settings.problems import shortened
 from fieldnav.settings.robot import Robot
+from fieldnav.settings.strict_loader import RefusedError
 
 Model = TypeVar("Model", bound=Settings)
 
@@ -45,5 +46,7 @@ def changed(settings: Model, key: str, text: str) -> Model:
     try:
         place[last] = parse(text, "--set")
     except SettingsError as error:
-        raise SettingsError(f"--set {key}: '{shortened(one_line(text))}' is no value") from error
+        cause = error.__cause__
+        why = f": {one_line(str(cause.problem))}" if isinstance(cause, RefusedError) else ""
+        raise SettingsError(f"--set {key}: '{shortened(one_line(text))}' is no value{why}") from error
     return checked(type(settings), document, "--set")

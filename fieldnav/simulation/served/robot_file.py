@@ -4,10 +4,9 @@ import os
 import tempfile
 from pathlib import Path
 
-import yaml
-
 from fieldnav.errors import OutputError
 from fieldnav.messages import CameraName
+from fieldnav.settings.documents import written
 from fieldnav.settings.robot import Bus, Robot
 
 SOCKETCAND = "socketcand"
@@ -36,7 +35,7 @@ def reached_at(
 
 def write_robot_file(path: Path, robot: Robot) -> None:
     """Write the whole file or nothing, for its owner alone to read. Raises OutputError."""
-    text = HEADER + yaml.safe_dump(robot.model_dump(mode="json"), sort_keys=False, allow_unicode=True)
+    text = HEADER + written(robot.model_dump(mode="json"))
     beside = None
     try:
         # Made with mode 0600: it says where the bus is, and whoever reaches that drives the robot.
