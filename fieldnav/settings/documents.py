@@ -27,8 +27,7 @@ class _Dumper(yaml.SafeDumper):
 
 def written(document: Mapping[str, object]) -> str:
     """A document of plain values as YAML that `parse` reads as the same."""
-    options = {"sort_keys": False, "allow_unicode": True, "width": LINE_WIDTH}
-    return str(yaml.dump(dict(document), Dumper=_Dumper, **options))
+    return yaml.dump(dict(document), Dumper=_Dumper, sort_keys=False, allow_unicode=True, width=LINE_WIDTH)
 
 
 def parse_mapping(text: str, label: str) -> dict[Hashable, Any]:

@@ -2,14 +2,15 @@
 
 import json
 from collections.abc import Mapping, Sequence
+from datetime import datetime
 from difflib import get_close_matches
-from types import NoneType, UnionType
+from types import NoneType
 from typing import Literal, get_args, get_origin
 
 from pydantic import BaseModel, ValidationError
 from pydantic_core import ErrorDetails
 
-from fieldnav.settings.found import Found, find, is_enum, is_model, known_part
+from fieldnav.settings.found import UNIONS, Found, find, is_enum, is_model, known_part
 from fieldnav.settings.one_line import one_line
 from fieldnav.settings.scalars import written_out
 
@@ -17,6 +18,9 @@ LONGEST_VALUE = 40
 """Characters of a bad value that are quoted; the rest would bury the message."""
 
 BOUND_DIGITS = 12
+
+MAX_REPORTED = 3
+"""Problems of one text that are reported at once; a line of more is not read."""
 
 MOST_DESCRIBED = 50
 """Problems of one file that are looked at; finding what was meant takes time for each."""
@@ -104,9 +108,10 @@ def _kind(found: Found) -> str:
         return " or ".join(str(member.value) for member in kind)
     if get_origin(kind) is Literal:
         return " or ".join(str(value) for value in get_args(kind))
-    if get_origin(kind) in (dict, tuple, UnionType):
+    if get_origin(kind) in (dict, tuple, *UNIONS):
         return _made_of(found)
     names = {float: "a number", int: "a whole number", bool: "true or false", str: "text"}
+    names |= {datetime: "a time with its zone"}
     return " ".join([names.get(kind, "another value"), *_limits(found)])
 
 
@@ -115,7 +120,7 @@ def _made_of(found: Found) -> str:
     arguments = get_args(found.kind)
     if get_origin(found.kind) is dict:
         return f"a group of keys, each with {_kind(Found(arguments[1]))}"
-    if get_origin(found.kind) is UnionType:
+    if get_origin(found.kind) in UNIONS:
         kinds = [_kind(Found(each, found.constraints)) for each in arguments if each is not NoneType]
         return " or ".join([*kinds, "null"] if NoneType in arguments else kinds)
     if arguments[-1] is Ellipsis:
