@@ -68,7 +68,7 @@ def replay(
     Exit status: 0 when nothing differs or a foreign recording could be replayed, 1 when anything differs, 2
     when the input is wrong.
     """
-    facing, parent = Direction[direction.name], Path(out_dir) if out_dir else runs
+    facing, parent = Direction[direction.name], out_dir or runs
     asked = Foreign(
         crop, robot, front, rear, odometry, speed, facing, rate, lanes, Side(side.value), parent,
         changes or [], again,

@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Self
 
 from fieldnav.errors import FieldnavError, OutputError
+from fieldnav.journal.files import PRIVATE_FOLDER
 
 MOST_RUNS_A_SECOND = 1000
 """Runs of one name that may start within a second before something else must be wrong."""
@@ -27,7 +28,7 @@ class RunDirectory:
         for attempt in range(1, MOST_RUNS_A_SECOND):
             path = parent / (stem if attempt == 1 else f"{stem}-{attempt}")
             try:
-                path.mkdir()
+                path.mkdir(PRIVATE_FOLDER)
             except FileExistsError:
                 continue
             except OSError as error:
@@ -113,7 +114,7 @@ def _make_folders(parent: Path) -> list[Path]:
     lacking = [folder for folder in (parent, *parent.parents) if not os.path.exists(folder)]
     for folder in reversed(lacking):
         try:
-            folder.mkdir(exist_ok=True)
+            folder.mkdir(PRIVATE_FOLDER, exist_ok=True)
         except OSError as error:
             _remove(made)
             raise _unwritable(parent, error) from error

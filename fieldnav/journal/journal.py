@@ -13,7 +13,7 @@ from typing import Any, Self
 from fieldnav.errors import FieldnavError, SettingsError
 from fieldnav.faults import FaultKind, Trouble
 from fieldnav.journal.entry import Entry, Line, line_of
-from fieldnav.journal.files import append_line, unwritable
+from fieldnav.journal.files import append_line, private, unwritable
 from fieldnav.settings.json_text import read_model
 from fieldnav.settings.regular_file import open_regular
 
@@ -38,8 +38,9 @@ class Journal:
         self._reserve = path.with_name(f".{path.name}.reserve")
         try:
             self._sequence = _repair(path)
-            self._file = path.open("ab", buffering=0)
-            self._reserve.write_bytes(bytes(RESERVE_BYTES))
+            self._file = open(path, "ab", buffering=0, opener=private)  # noqa: SIM115 - closed by close
+            with open(self._reserve, "wb", opener=private) as reserve:
+                reserve.write(bytes(RESERVE_BYTES))
             _sync_folder(path.parent)
         except OSError as error:
             raise unwritable(path, error) from error

@@ -16,7 +16,7 @@ from pydantic import BaseModel, ConfigDict, Field
 
 from fieldnav.errors import FieldnavError, OutputError, SettingsError
 from fieldnav.journal.entry import MAX_LANES, MAX_ROWS, MAX_STAMP_S, MAX_WAY_M
-from fieldnav.journal.files import append_line, unwritable
+from fieldnav.journal.files import append_line, private, unwritable
 from fieldnav.journal.ledger_lock import hold
 from fieldnav.settings.json_text import read_model
 from fieldnav.settings.regular_file import open_regular
@@ -60,7 +60,7 @@ class Ledger:
     def __init__(self, path: Path) -> None:
         self._path = path
         try:
-            self._file = path.open("ab", buffering=0)
+            self._file = open(path, "ab", buffering=0, opener=private)  # noqa: SIM115 - closed by close
         except OSError as error:
             raise unwritable(path, error) from error
         try:

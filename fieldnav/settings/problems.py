@@ -13,6 +13,7 @@ from pydantic_core import ErrorDetails
 from fieldnav.settings.found import UNIONS, Found, find, is_enum, is_model, known_part
 from fieldnav.settings.one_line import one_line
 from fieldnav.settings.scalars import written_out
+from fieldnav.settings.shown_source import shown
 
 LONGEST_VALUE = 40
 """Characters of a bad value that are quoted; the rest would bury the message."""
@@ -146,7 +147,7 @@ def _plain(bound: float) -> str:
 
 def _quoted(value: object) -> str:
     text = f"'{value}'" if isinstance(value, str) else json.dumps(value, default=str)
-    return shortened(text)
+    return shortened(shown(text))
 
 
 def shortened(text: str) -> str:
