@@ -8,7 +8,7 @@ import yaml
 from fieldnav.errors import SettingsError
 from fieldnav.settings.one_line import one_line
 from fieldnav.settings.regular_file import read_regular
-from fieldnav.settings.scalars import RESOLVERS
+from fieldnav.settings.scalars import QUOTED
 from fieldnav.settings.strict_loader import RefusedError, StrictLoader
 
 LARGEST_FILE_BYTES = 100_000
@@ -22,7 +22,7 @@ LINE_WIDTH = 110
 class _Dumper(yaml.SafeDumper):
     """Puts text in quotes that the strict loader would refuse or read as something else."""
 
-    yaml_implicit_resolvers = RESOLVERS
+    yaml_implicit_resolvers = QUOTED
 
 
 def written(document: Mapping[str, object]) -> str:

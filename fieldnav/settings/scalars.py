@@ -1,7 +1,7 @@
 """What an unquoted value of a settings file stands for: null, true, false, a decimal number, or text.
 
 Values that YAML readers disagree about (01024 is 1024 or 532, no is text or false) are refused with advice.
-One table serves reading and writing: text that would be read as something else is written in quotes.
+The same table serves writing: text that would be read as something else is written in quotes.
 """
 
 import re
@@ -38,7 +38,9 @@ RESOLVERS: dict[Any, list[tuple[str, re.Pattern[str]]]] = {
         for name, pattern in _PATTERNS.items()
     ]
 }
-"""For yaml's loaders and dumpers: None stands for every first character."""
+"""For yaml's loaders: None stands for every first character."""
+QUOTED = {None: [*RESOLVERS[None], (AMBIGUOUS, _HEXADECIMAL), (AMBIGUOUS, _EXPONENT)]}
+"""For its dumpers: text that is none to other readers is put in quotes too."""
 
 
 def advice(text: str) -> str:
