@@ -3,7 +3,7 @@
 from collections.abc import Iterator, Mapping
 from typing import Any
 
-from fieldnav.settings.shown_source import shown
+from fieldnav.settings.shown_source import HIDDEN, is_secret, shown
 
 GENERAL = "run"
 
@@ -24,7 +24,7 @@ def _flat(part: Mapping[Any, Any], before: str = "") -> Iterator[tuple[str, str]
         if isinstance(value, Mapping) and value:
             yield from _flat(value, f"{name}.")
         else:
-            yield name, _text(value)
+            yield name, HIDDEN if is_secret(name) else _text(value)
 
 
 def _text(value: object) -> str:

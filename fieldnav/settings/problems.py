@@ -13,7 +13,7 @@ from pydantic_core import ErrorDetails
 from fieldnav.settings.found import UNIONS, Found, find, is_enum, is_model, known_part
 from fieldnav.settings.one_line import one_line
 from fieldnav.settings.scalars import written_out
-from fieldnav.settings.shown_source import shown
+from fieldnav.settings.shown_source import HIDDEN, is_secret, shown
 
 LONGEST_VALUE = 40
 """Characters of a bad value that are quoted; the rest would bury the message."""
@@ -56,7 +56,7 @@ def _line(problem: ErrorDetails, model: type[BaseModel], called: Mapping[str, st
     key = shortened(".".join(str(part) for part in location))
     key = called.get(key, key)
     found, owner = find(model, location), find(model, location[:-1])
-    value = _quoted(problem["input"])
+    value = HIDDEN if is_secret(key) else _quoted(problem["input"])
     if "[key]" in problem["loc"]:
         return f"{key}: there is no such key; {nearest(str(location[-1]), _keys(owner))}"
     match problem["type"]:

@@ -9,6 +9,7 @@ from yaml.constructor import ConstructorError
 
 from fieldnav.settings.problems import shortened
 from fieldnav.settings.scalars import AMBIGUOUS, RESOLVERS, STRING, advice
+from fieldnav.settings.shown_source import is_secret
 
 DEEPEST_NESTING = 20
 """Levels of a document; settings have four."""
@@ -61,7 +62,8 @@ class StrictLoader(yaml.SafeLoader):
         self._check_length(node)
         if node.tag == AMBIGUOUS:
             key = shortened(".".join(self._path[1:]))
-            problem = f"{key}: {advice(node.value)}" if key else advice(node.value)
+            said = "is not allowed as it is; write it in quotes" if is_secret(key) else advice(node.value)
+            problem = f"{key}: {said}" if key else said
             raise RefusedError(problem=problem, problem_mark=node.start_mark)
 
     def _problem(self, event: Any) -> str:

@@ -42,6 +42,22 @@ def test_an_error_quotes_a_value_without_it(key: str, wrong: str, source: str) -
     assert "hunter2" not in str(caught.value)
 
 
+def test_the_report_hides_what_is_named_a_password() -> None:
+    (group,) = settings_groups({"robot": {"can": {"options": {"user-pw": "hunter2", "port": 3}}}})
+
+    assert group == ("robot", [("can.options.user-pw", "***"), ("can.options.port", "3")])
+
+
+@pytest.mark.parametrize("value", ["07551", "7551_1", "[07551]", "{a: 7551}", "[7551]"])
+def test_a_password_that_is_refused_is_not_quoted(value: str) -> None:
+    text = written(load_robot("bonnbot").model_dump(mode="json"))
+
+    with pytest.raises(SettingsError, match=r"can\.options\.password") as caught:
+        parse(Robot, text.replace("options: {}", f"options: {{password: {value}}}"), "robot.yaml")
+
+    assert "7551" not in str(caught.value)
+
+
 @pytest.mark.parametrize("source", SOURCES)
 def test_an_option_that_is_refused_is_quoted_without_it(source: str) -> None:
     changes = [

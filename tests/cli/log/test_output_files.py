@@ -53,7 +53,7 @@ def listing(folder: Path) -> dict[str, tuple[int, int]]:
 @pytest.mark.parametrize("obstacle", OBSTACLES)
 @pytest.mark.parametrize("writer", WRITERS)
 def test_what_is_no_regular_file_is_refused_and_left_as_it_is(
-    writer: str, obstacle: str, recorded: RunDirectory, target: Path, capsys: pytest.CaptureFixture[str]
+    writer: str, obstacle: str, directory: RunDirectory, target: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     path = target / NAMES.get(writer, "out")
     OBSTACLES[obstacle](path)
@@ -71,7 +71,7 @@ def test_what_is_no_regular_file_is_refused_and_left_as_it_is(
 
 @pytest.mark.parametrize("writer", [name for name in WRITERS if name != "simulate --serve"])
 def test_a_regular_file_is_replaced_by_a_private_one(
-    writer: str, recorded: RunDirectory, target: Path
+    writer: str, directory: RunDirectory, target: Path
 ) -> None:
     path = target / NAMES.get(writer, "out")
     path.write_text("old")
@@ -86,7 +86,7 @@ def test_a_regular_file_is_replaced_by_a_private_one(
 
 @pytest.mark.parametrize("writer", WRITERS)
 def test_a_folder_that_is_not_there_is_refused(
-    writer: str, recorded: RunDirectory, target: Path, capsys: pytest.CaptureFixture[str]
+    writer: str, directory: RunDirectory, target: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     path = target / "none" / NAMES.get(writer, "out")
 
@@ -111,7 +111,7 @@ def test_a_folder_that_is_not_there_is_refused(
     ],
 )
 def test_an_empty_name_is_refused(
-    arguments: list[str], recorded: RunDirectory, capsys: pytest.CaptureFixture[str]
+    arguments: list[str], directory: RunDirectory, capsys: pytest.CaptureFixture[str]
 ) -> None:
     before = sorted(Path().rglob("*"))
 
@@ -130,14 +130,14 @@ def test_an_empty_name_is_refused(
 def test_neither_a_run_nor_its_report_goes_into_what_is_no_folder_and_no_file(
     arguments: list[str],
     obstacle: str,
-    recorded: RunDirectory,
+    directory: RunDirectory,
     target: Path,
     capsys: pytest.CaptureFixture[str],
 ) -> None:
     into_folder = arguments[0] == "simulate"
     if into_folder and obstacle in ("a folder", "a link to a folder"):
         pytest.skip("a run's directory may be made there")
-    path = target / "out" if into_folder else recorded.report
+    path = target / "out" if into_folder else directory.report
     OBSTACLES[obstacle](path)
     before = listing(target)
 
