@@ -43,7 +43,9 @@ def whole_file(path: Path) -> Iterator[Path]:
         number, name = tempfile.mkstemp(prefix=".part-", suffix=path.suffix, dir=path.parent)
         os.close(number)
     except OSError as error:
-        raise unwritable(path, error) from error
+        raise OutputError(
+            f"{unwritable(path, error)}; allowed is a file in a folder you can write"
+        ) from error
     beside = Path(name)
     try:
         yield beside
