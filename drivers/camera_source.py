@@ -10,9 +10,9 @@ from threading import Lock
 import cv2
 
 from drivers.recorded_camera import PICTURES
-from drivers.shown_source import PIPED, shown
 from fieldnav.errors import DriverError
 from fieldnav.faults import FaultKind
+from fieldnav.settings.shown_source import PIPED, shown
 
 STREAMS = ("rtsp://", "rtsps://", "http://", "https://")
 OPENING_S, READING_S, MILLISECONDS = 5, 2, 1000

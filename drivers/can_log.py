@@ -9,6 +9,7 @@ import can
 from can.interfaces.virtual import VirtualBus
 
 from fieldnav.errors import DriverError, OutputError
+from fieldnav.journal.files import private
 from fieldnav.settings.robot import Bus
 
 VIRTUAL = "virtual"
@@ -72,7 +73,8 @@ class LoggedBus(can.BusABC):
         self._clock = clock
         self._log: can.CanutilsLogWriter | None = None
         try:
-            self._log = can.CanutilsLogWriter(path, channel=channel, append=append)
+            file = open(path, "a" if append else "w", encoding="ascii", opener=private)  # noqa: SIM115
+            self._log = can.CanutilsLogWriter(file, channel=channel, append=append)
         except OSError as error:
             self.shutdown()
             raise OutputError(f"{path}: cannot be written: {error.strerror or error}") from error

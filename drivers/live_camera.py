@@ -10,11 +10,11 @@ import numpy as np
 
 from drivers.compression import compressed
 from drivers.recorded_camera import check_size
-from drivers.shown_source import shown
 from fieldnav.errors import DriverError
 from fieldnav.faults import FaultKind, Trouble
 from fieldnav.messages import CameraName, Frame
 from fieldnav.settings.camera import CameraSettings
+from fieldnav.settings.shown_source import shown
 
 CLOSING_S = 3.0
 """So long closing waits for a source that is about to give a frame; longer than OpenCV waits for one."""

@@ -10,11 +10,11 @@ from drivers.camera_source import SourceKind, kind_of, open_capture, quieten
 from drivers.live_camera import LiveCamera
 from drivers.ports import Camera
 from drivers.recorded_camera import Folder, RecordedCamera, Still, Video
-from drivers.shown_source import shown
 from fieldnav.errors import DriverError
 from fieldnav.faults import FaultKind
 from fieldnav.messages import CameraName
 from fieldnav.settings.camera import CameraSettings
+from fieldnav.settings.shown_source import shown
 
 
 def open_camera(

@@ -6,11 +6,11 @@ from typing import Protocol
 import cv2
 import numpy as np
 
-from drivers.shown_source import shown
 from fieldnav.errors import DriverError
 from fieldnav.faults import FaultKind
 from fieldnav.messages import CameraName, Frame, Image
 from fieldnav.settings.camera import CameraSettings
+from fieldnav.settings.shown_source import shown
 
 PICTURES = (".jpg", ".jpeg", ".png", ".bmp", ".tif", ".tiff", ".webp")
 COLOURS = 3

@@ -1,6 +1,8 @@
 """Whole missions: real states, driver and CAN frames, on a simulated field, to the run directory."""
 
 import json
+import os
+from collections.abc import Iterator
 from pathlib import Path
 
 import numpy as np
@@ -147,8 +149,16 @@ def test_a_mirrored_field_gives_the_mirrored_run(
     assert plain[-1][1] < -1.0 and other[-1][1] > 1.0, "the next lane lies to the other side"
 
 
+@pytest.fixture
+def open_umask() -> Iterator[None]:
+    """A process that would make everything for everybody."""
+    before = os.umask(0)
+    yield
+    os.umask(before)
+
+
 def test_the_same_seed_gives_the_same_journal_and_the_same_frames_on_the_bus(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+    tmp_path: Path, open_umask: None, capsys: pytest.CaptureFixture[str]
 ) -> None:
     robot = tmp_path / "quick.yaml"
     robot.write_text(json.dumps(quick_robot().model_dump(mode="json")))
@@ -167,3 +177,12 @@ def test_the_same_seed_gives_the_same_journal_and_the_same_frames_on_the_bus(
     assert one.journal.read_bytes().count(b"\n") >= 4
     assert one.journal.read_bytes() == other.journal.read_bytes()
     assert one.can_log.read_bytes() == other.can_log.read_bytes()
+    modes = {
+        path.name: path.stat().st_mode & 0o777 for path in (one.path.parent, one.path, *one.path.iterdir())
+    }
+    assert {name for name, mode in modes.items() if mode == 0o700} == {"first", one.path.name}
+    assert {name for name, mode in modes.items() if mode == 0o600} >= {
+        *("journal.jsonl", "ledger.jsonl", "summary.json", "settings.yaml", "can.log", "map.png"),
+        *("recording.mcap", "report.html"),
+    }
+    assert set(modes.values()) == {0o700, 0o600}, "the settings hold the passwords of the cameras"

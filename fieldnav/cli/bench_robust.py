@@ -9,7 +9,7 @@ from typing import Annotated
 import typer
 
 from fieldnav.cli.bench_run import JsonOption, MarkdownOption, QuickOption, ready_opencv, report_on
-from fieldnav.cli.output_folder import make_writable
+from fieldnav.cli.output_folder import make_writable, output_path
 
 MOST_FRAMES, MOST_FILES, MOST_JOBS, LARGEST_SEED = 1_000_000_000, 10_000_000, 256, 2**31 - 1
 
@@ -26,7 +26,10 @@ def fuzz(
         str, typer.Option(metavar="CASE", help="One case alone, as a failure names it: driver:17, files:42.")
     ] = "",
     keep: Annotated[
-        Path | None, typer.Option(metavar="DIR", help="Folder that files which go wrong are written into.")
+        Path | None,
+        typer.Option(
+            parser=output_path, metavar="DIR", help="Folder that files which go wrong are written into."
+        ),
     ] = None,
     jobs: Annotated[
         int | None,

@@ -10,6 +10,7 @@ from fieldnav.cli.bench_report import document, markdown, report_table
 from fieldnav.cli.bench_wide import wide_markdown, wide_table
 from fieldnav.cli.checkout import commit, machine
 from fieldnav.cli.console import out, print_json
+from fieldnav.cli.output_folder import output_path
 from fieldnav.cli.part_progress import watched
 from fieldnav.cli.picture_limit import limit_pictures
 from fieldnav.evaluation.benchmark import Progress, Report
@@ -17,7 +18,10 @@ from fieldnav.evaluation.benchmark import Progress, Report
 QuickOption = Annotated[bool, typer.Option("--quick", help="A smaller sample, in under a minute.")]
 JsonOption = Annotated[bool, typer.Option("--json", help="Print one JSON object, for programs.")]
 MarkdownOption = Annotated[bool, typer.Option("--markdown", help="Print the table for a document.")]
-PlotOption = Annotated[Path | None, typer.Option(metavar="DIR", help="Folder that pictures are drawn into.")]
+PlotOption = Annotated[
+    Path | None,
+    typer.Option(parser=output_path, metavar="DIR", help="Folder that pictures are drawn into."),
+]
 
 
 def ready_opencv(threads: int | None) -> None:

@@ -7,7 +7,7 @@ from typing import Annotated
 import typer
 
 from fieldnav.cli.bench_run import JsonOption, MarkdownOption, QuickOption, ready_opencv, report_on
-from fieldnav.cli.output_folder import make_writable
+from fieldnav.cli.output_folder import make_writable, output_path
 from fieldnav.errors import SettingsError
 from fieldnav.evaluation.benchmark import Plan, Progress, Report
 
@@ -33,7 +33,8 @@ def detection(
     as_markdown: MarkdownOption = False,
     threads: ThreadsOption = None,
     plot: Annotated[
-        Path | None, typer.Option(metavar="DIR", help="Folder that reliability.png is drawn into.")
+        Path | None,
+        typer.Option(parser=output_path, metavar="DIR", help="Folder that reliability.png is drawn into."),
     ] = None,
 ) -> None:
     """Find crop rows in photographs and in rendered fields, and where there are none.

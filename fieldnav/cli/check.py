@@ -9,6 +9,7 @@ import typer
 
 from fieldnav.cli.console import FAILED, out, print_json
 from fieldnav.cli.findings import document, line
+from fieldnav.cli.output_folder import output_path
 from fieldnav.cli.picture_limit import limit_pictures
 from fieldnav.errors import SettingsError
 from fieldnav.preflight.finding import Finding, Verdict
@@ -31,7 +32,10 @@ def check(
         typer.Option(help="Crop that the robot stands over; name or path. Checks poses and rows too."),
     ] = None,
     out_dir: Annotated[
-        Path, typer.Option("--out", help="Folder that run directories will be made in.", metavar="DIR")
+        Path,
+        typer.Option(
+            "--out", parser=output_path, help="Folder that run directories will be made in.", metavar="DIR"
+        ),
     ] = Path("runs"),
     as_json: Annotated[bool, typer.Option("--json", help="Print one JSON object, for programs.")] = False,
 ) -> int:

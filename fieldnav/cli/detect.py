@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from fieldnav.cli.camera_option import RobotOption
+from fieldnav.cli.output_folder import output_path
 from fieldnav.cli.picture_limit import limit_pictures
 
 if TYPE_CHECKING:
@@ -26,7 +27,10 @@ def detect(
     ] = None,
     robot: RobotOption = None,
     overlay: Annotated[
-        Path | None, typer.Option(help="Folder for pictures with what was found drawn in.", metavar="DIR")
+        Path | None,
+        typer.Option(
+            parser=output_path, help="Folder for pictures with what was found drawn in.", metavar="DIR"
+        ),
     ] = None,
     as_json: Annotated[
         bool, typer.Option("--json", help="Print one JSON object a line, for programs.")

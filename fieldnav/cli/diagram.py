@@ -7,8 +7,10 @@ from typing import Annotated
 import typer
 
 from fieldnav.cli.log.options import RUN_HELP, RUNS, RunsOption
+from fieldnav.cli.output_folder import output_path
 from fieldnav.errors import OutputError, SettingsError
 from fieldnav.journal.directory import find_run
+from fieldnav.journal.files import write_atomically
 
 
 class Format(Enum):
@@ -27,7 +29,8 @@ def diagram(
     ] = None,
     runs: RunsOption = RUNS,
     out: Annotated[
-        Path | None, typer.Option(metavar="FILE", help="Write it there instead of printing it.")
+        Path | None,
+        typer.Option(parser=output_path, metavar="FILE", help="Write it there instead of printing it."),
     ] = None,
 ) -> None:
     """Print the state machine's diagram, generated from the table that the machine runs on."""
@@ -38,11 +41,9 @@ def diagram(
         print(made)
         return
     try:
-        out.write_text(made + "\n", encoding="utf-8")
-    except OSError as error:
-        raise OutputError(
-            f"--out: {out} cannot be written: {error.strerror}; allowed is a file in a folder you can write"
-        ) from error
+        write_atomically(out, f"{made}\n".encode())
+    except OutputError as error:
+        raise OutputError(f"--out: {error}") from error
 
 
 def _plain(format: Format) -> str:

@@ -10,7 +10,7 @@ from pydantic import Field
 
 from fieldnav.cli.output_folder import make_writable
 from fieldnav.errors import SettingsError
-from fieldnav.journal.files import write_atomically
+from fieldnav.journal.files import check_replaceable, write_atomically
 from fieldnav.messages import Image
 from fieldnav.settings.camera import LARGEST_SIDE_PX
 from fieldnav.settings.loading import revised
@@ -78,6 +78,7 @@ def overlay_paths(images: Sequence[str], folder: Path) -> dict[str, Path]:
         while path in paths.values() or os.path.realpath(path) in given:
             number += 1
             path = folder / f"{Path(image).stem}-{number}{OVERLAY_SUFFIX}"
+        check_replaceable(path)
         paths[image] = path
     return paths
 

@@ -4,12 +4,11 @@ from enum import Enum
 from typing import Annotated
 
 import typer
-import yaml
 
 from fieldnav.cli.console import FAILED, out, print_error, print_json
 from fieldnav.cli.profile_tables import profile_table
 from fieldnav.errors import SettingsError
-from fieldnav.settings.documents import parse_mapping, read_text
+from fieldnav.settings.documents import parse_mapping, read_text, written
 from fieldnav.settings.kinds import Kind, is_path, kind_of_document, kinds_named, names_of
 from fieldnav.settings.loading import load
 
@@ -72,7 +71,7 @@ def show(
         print(
             f"# A {other.singular} has this name too: fieldnav profiles show {name} --kind {other.singular}"
         )
-    print(yaml.safe_dump(document, sort_keys=False, allow_unicode=True, width=100), end="")
+    print(written(document), end="")
 
 
 @profiles.command()

@@ -68,7 +68,7 @@ def replay(
     Exit status: 0 when nothing differs or a foreign recording was replayed, 1 when anything differs or much
     of a foreign recording was not looked at, 2 when the input is wrong or damaged.
     """
-    facing, parent = Direction[direction.name], Path(out_dir) if out_dir else runs
+    facing, parent = Direction[direction.name], out_dir or runs
     asked = Foreign(
         crop, robot, front, rear, odometry, speed, facing, rate, lanes, Side(side.value), parent,
         changes or [], again,

@@ -1,9 +1,12 @@
 """The options of `fieldnav replay` for recordings that fieldnav has not made."""
 
 from enum import Enum
+from pathlib import Path
 from typing import Annotated
 
 import typer
+
+from fieldnav.cli.output_folder import output_path
 
 
 class DirectionOption(Enum):
@@ -57,6 +60,11 @@ AgainOption = Annotated[
     bool, typer.Option("--again", help="Begin anew after each stop in a foreign recording.")
 ]
 OutOption = Annotated[
-    str | None,
-    typer.Option("--out", help="Folder for the run directory of a foreign replay; as --runs.", metavar="DIR"),
+    Path | None,
+    typer.Option(
+        "--out",
+        parser=output_path,
+        help="Folder for the run directory of a foreign replay; as --runs.",
+        metavar="DIR",
+    ),
 ]

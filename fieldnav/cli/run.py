@@ -12,6 +12,7 @@ import typer
 
 from fieldnav.cli.console import out, print_error, print_json
 from fieldnav.cli.findings import line
+from fieldnav.cli.output_folder import output_path
 from fieldnav.cli.simulate import STOPPED, SideOption
 from fieldnav.errors import SettingsError
 from fieldnav.messages import Side
@@ -37,7 +38,10 @@ def run(
         SideOption | None, typer.Option(help="Where the next lanes lie, seen forward; right where not given.")
     ] = None,
     out_dir: Annotated[
-        Path, typer.Option("--out", help="Folder that run directories are made in.", metavar="DIR")
+        Path,
+        typer.Option(
+            "--out", parser=output_path, help="Folder that run directories are made in.", metavar="DIR"
+        ),
     ] = Path("runs"),
     resume: Annotated[
         str | None,

@@ -13,6 +13,7 @@ from types import FrameType
 from fieldnav.cli.console import out, table
 from fieldnav.errors import SettingsError
 from fieldnav.inquiry.figure_words import against_truth
+from fieldnav.journal.files import check_replaceable
 from fieldnav.messages import CameraName, Side
 from fieldnav.settings.field import FieldSettings
 from fieldnav.settings.kinds import is_path
@@ -40,6 +41,7 @@ def serve_robot(
         raise SettingsError(
             f"--robot-file: {robot_file} is not allowed; allowed is a file that ends in .yaml"
         )
+    check_replaceable(robot_file)
     offer = Offer(field, load_crop(field.crop), load_robot(robot), side, port, sketch)
     with ServedRobot(offer) as served:
         write_robot_file(robot_file, served.robot)

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from fieldnav.cli.console import out, print_json
+from fieldnav.cli.output_folder import output_path
 from fieldnav.messages import Side
 
 if TYPE_CHECKING:
@@ -42,7 +43,10 @@ def simulate(
     ] = SideOption.RIGHT,
     seed: Annotated[int | None, typer.Option(help="Another field of the same kind.")] = None,
     out_dir: Annotated[
-        Path, typer.Option("--out", help="Folder that run directories are made in.", metavar="DIR")
+        Path,
+        typer.Option(
+            "--out", parser=output_path, help="Folder that run directories are made in.", metavar="DIR"
+        ),
     ] = Path("runs"),
     video: Annotated[bool, typer.Option("--video", help="Write overlay.mp4 too.")] = False,
     realtime: Annotated[bool, typer.Option("--realtime", help="No faster than the clock.")] = False,
@@ -58,7 +62,10 @@ def simulate(
         int, typer.Option(min=0, max=LAST_PORT, help="Of the served bus; pictures on the next. 0: any.")
     ] = 0,
     robot_file: Annotated[
-        Path, typer.Option(help="Where --serve writes the robot file to drive it by.", metavar="FILE")
+        Path,
+        typer.Option(
+            parser=output_path, help="Where --serve writes the robot file to drive it by.", metavar="FILE"
+        ),
     ] = Path("served-robot.yaml"),
 ) -> int:
     """Drive a whole field in simulation: the real mission, driver and CAN frames, rendered cameras.

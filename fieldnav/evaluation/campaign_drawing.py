@@ -5,8 +5,8 @@ from pathlib import Path
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from fieldnav.errors import OutputError
 from fieldnav.evaluation.navigation_configurations import Configuration
+from fieldnav.journal.files import whole_file
 
 INK, PAPER, GRID, FAINT = "#2b2b2b", "#fbfaf7", "#dddad2", "#8c8c8c"
 GOAL, KNOWN, FAILED = "#2d8a3e", "#b5341f", "#d01c1c"
@@ -47,7 +47,5 @@ def head(axes: Axes, title: str) -> None:
 
 def save(figure: Figure, path: Path) -> None:
     """Write the picture into a PNG file. Raises OutputError."""
-    try:
-        figure.savefig(path, dpi=DOTS_PER_INCH)
-    except OSError as error:
-        raise OutputError(f"{path}: cannot be written: {error.strerror}") from error
+    with whole_file(path) as beside:
+        figure.savefig(beside, dpi=DOTS_PER_INCH)

@@ -13,6 +13,7 @@ from fieldnav.evaluation.benchmark import Failure
 from fieldnav.evaluation.fuzz_originals import originals
 from fieldnav.evaluation.fuzz_run_files import Original
 from fieldnav.evaluation.fuzz_text import mutated
+from fieldnav.journal.files import write_atomically
 
 FILES = "files"
 """How a failure calls them, before a colon and the file's number."""
@@ -115,7 +116,7 @@ def _failure(batch: Batch, index: int, original: Original, content: bytes, wrong
     if batch.kept is not None:
         copy = original.place_in(batch.kept)
         copy = copy.with_name(f"{index}-{copy.name}")
-        copy.write_bytes(content)
+        write_atomically(copy, content)
         kept = f" (written to {copy})"
     again = f"fieldnav bench fuzz --seed {batch.seed} --again {case}"
     return Failure(case, f"{original.name}: {wrong[:500]}{kept}", again)

@@ -7,8 +7,8 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import PercentFormatter
 
-from fieldnav.errors import OutputError
 from fieldnav.evaluation.recognition_scores import Curve, JudgedPairs, Scores, curve, scores
+from fieldnav.journal.files import whole_file
 from fieldnav.settings.lane_change import Recognition
 
 PICTURE = "precision_recall.png"
@@ -43,10 +43,8 @@ def draw_recognition(
     figure.suptitle("Is this a new crop row, or the same one again?", color=INK, fontweight="bold")
     handles, labels = graphs.flat[0].get_legend_handles_labels()
     figure.legend(handles, labels, loc="outside lower center", ncols=3, frameon=False, labelcolor=INK)
-    try:
-        figure.savefig(folder / PICTURE, dpi=DOTS_PER_INCH)
-    except OSError as error:
-        raise OutputError(f"{folder / PICTURE}: cannot be written: {error.strerror}") from error
+    with whole_file(folder / PICTURE) as beside:
+        figure.savefig(beside, dpi=DOTS_PER_INCH)
 
 
 def _draw_crop(axes: Axes, name: str, pairs: JudgedPairs, settings: Recognition) -> None:

@@ -8,8 +8,8 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator, PercentFormatter
 
-from fieldnav.errors import OutputError
 from fieldnav.evaluation.reliability import BINS, Bin, JudgedRows, bins, calibration_error, counts_by_bin
+from fieldnav.journal.files import whole_file
 
 PICTURE = "reliability.png"
 INK, PAPER, GRID, SHARE, IDEAL = "#2b2b2b", "#fbfaf7", "#dddad2", "#1f6fb4", "#8c8c8c"
@@ -40,10 +40,8 @@ def draw_reliability(path: Path, judged: Mapping[str, JudgedRows]) -> None:
         f"{len(every)} rows found in photographs; expected calibration error {calibration_error(every):.3f}"
     )
     upper.text(0, 1.02, said, transform=upper.transAxes, fontsize=9.5, color=INK, va="bottom")
-    try:
-        figure.savefig(path, dpi=DOTS_PER_INCH)
-    except OSError as error:
-        raise OutputError(f"{path}: cannot be written: {error.strerror}") from error
+    with whole_file(path) as beside:
+        figure.savefig(beside, dpi=DOTS_PER_INCH)
 
 
 def _draw_shares(axes: Axes, every: JudgedRows) -> None:

@@ -1,6 +1,5 @@
 """Files of ground truth: JSON, checked against what it must hold, every error naming the file."""
 
-import json
 from pathlib import Path
 from typing import TypeVar
 
@@ -8,6 +7,7 @@ from pydantic import BaseModel, ValidationError
 
 from fieldnav.errors import SettingsError
 from fieldnav.evaluation.photographs import read_words
+from fieldnav.settings.json_text import parse_json
 from fieldnav.settings.problems import describe
 
 Truth = TypeVar("Truth", bound=BaseModel)
@@ -15,10 +15,11 @@ Truth = TypeVar("Truth", bound=BaseModel)
 
 def read_json(path: Path) -> object:
     """What a JSON file holds. Raises SettingsError."""
+    text = read_words(path)
     try:
-        return json.loads(read_words(path))
-    except (ValueError, RecursionError) as error:
-        raise SettingsError(f"{path}: is no JSON: {error}") from error
+        return parse_json(text.encode())
+    except SettingsError as error:
+        raise SettingsError(f"{path}: {error}") from error
 
 
 def checked(entry: object, kind: type[Truth], label: str) -> Truth:

@@ -3,9 +3,10 @@
 import re
 
 HEAD = re.compile(
-    rb'\{"seq": (?P<seq>\d+), "stamp_s": (?P<stamp_s>-?[0-9.e+-]+), "utc": "[^"\\]*", '
+    rb'\{"seq": (?P<seq>\d{1,16}), "stamp_s": (?P<stamp_s>-?\d{1,16}(?:\.\d{1,16})?(?:e[+-]?\d{1,2})?), '
+    rb'"utc": "[^"\\]*", '
     rb'"event": "(?P<event>[^"\\]*)", "source": "(?P<source>[^"\\]*)", "target": "(?P<target>[^"\\]*)", '
-    rb'"lane": (?P<lane>\d+|null), '
+    rb'"lane": (?P<lane>\d{1,4}|null), '
 )
 """Does not match a line that was written otherwise, or holds escapes: that one has to be parsed."""
 

@@ -5,11 +5,11 @@ from io import SEEK_END
 from pathlib import Path
 from typing import Self
 
-from pydantic import ValidationError
-
-from fieldnav.errors import FieldnavError
+from fieldnav.errors import FieldnavError, SettingsError
 from fieldnav.inquiry.line_head import order_of
 from fieldnav.journal.entry import Line
+from fieldnav.settings.json_text import read_model
+from fieldnav.settings.regular_file import open_regular
 
 BLOCK_BYTES = 8192
 """Of one look into the file: some lines."""
@@ -30,7 +30,7 @@ class JournalLines:
         self._path = path
         self.parsed = self.bytes_read = 0
         try:
-            self._file = path.open("rb", buffering=0)
+            self._file = open_regular(path)
             whole = self._file.seek(0, SEEK_END)
         except OSError as error:
             raise FieldnavError(f"{path}: cannot be read: {error.strerror}") from error
@@ -102,10 +102,11 @@ class JournalLines:
         start, text = placed
         self.parsed += 1
         try:
-            return Line.model_validate_json(text)
-        except ValidationError as error:
+            return read_model(Line, text)
+        except SettingsError as error:
             number = sum(1 for _ in self.backwards(start)) + 1
-            raise FieldnavError(f"{self._path}: line {number} is not a line of a journal") from error
+            said = f"{self._path}: line {number} is not a line of a journal"
+            raise FieldnavError(f"{said}: {error}") from error
 
     def _order(self, start: int, text: bytes) -> tuple[int, float]:
         order = order_of(text)

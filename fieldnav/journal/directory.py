@@ -1,6 +1,7 @@
 """A run's directory: one folder a run, named by its time and what was driven, and what lies where in it."""
 
 import os
+import re
 from contextlib import suppress
 from dataclasses import dataclass
 from datetime import UTC, datetime
@@ -8,9 +9,13 @@ from pathlib import Path
 from typing import Self
 
 from fieldnav.errors import FieldnavError, OutputError
+from fieldnav.journal.files import PRIVATE_FOLDER
+from fieldnav.settings.regular_file import open_regular
 
 MOST_RUNS_A_SECOND = 1000
 """Runs of one name that may start within a second before something else must be wrong."""
+NUMBER, HEAD_BYTES = re.compile(rb"^run: ([0-9]{1,9})$", re.MULTILINE), 1024
+"""A run's number, in the head of its settings.yaml."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -27,7 +32,7 @@ class RunDirectory:
         for attempt in range(1, MOST_RUNS_A_SECOND):
             path = parent / (stem if attempt == 1 else f"{stem}-{attempt}")
             try:
-                path.mkdir()
+                path.mkdir(PRIVATE_FOLDER)
             except FileExistsError:
                 continue
             except OSError as error:
@@ -35,6 +40,16 @@ class RunDirectory:
                 raise _unwritable(parent, error) from error
             return cls(path)
         raise OutputError(f"{parent}: holds {MOST_RUNS_A_SECOND} runs named {stem} already")
+
+    @property
+    def number(self) -> int:
+        """By which runs of a folder are in the order in which they were made; 0 where none is written."""
+        try:
+            with open_regular(self.settings) as file:
+                found = NUMBER.search(file.read(HEAD_BYTES))
+        except OSError:
+            return 0
+        return int(found[1]) if found else 0
 
     @property
     def journal(self) -> Path:
@@ -74,9 +89,10 @@ class RunDirectory:
 
 
 def runs_in(parent: Path) -> list[RunDirectory]:
-    """The runs below a folder, newest first; none when there is no such folder.
+    """The runs below a folder, that made last first; none when there is no such folder.
 
-    Raises FieldnavError for what is no folder that can be read.
+    By their numbers, since a robot's clock may be wrong; after them runs without one, by the time in their
+    names. Raises FieldnavError for what is no folder that can be read.
     """
     try:
         paths = list(parent.iterdir())
@@ -87,7 +103,15 @@ def runs_in(parent: Path) -> list[RunDirectory]:
             f"{parent}: cannot be read: {error.strerror}; allowed is a folder that holds runs"
         ) from error
     runs = [run for run in map(RunDirectory, paths) if os.path.exists(run.journal)]
-    return sorted(runs, key=lambda run: run.path.name, reverse=True)
+    return sorted(runs, key=lambda run: (run.number, run.path.name), reverse=True)
+
+
+def next_number(parent: Path) -> int:
+    """The number of the run that is made next in a folder."""
+    try:
+        return max((RunDirectory(path).number for path in parent.iterdir()), default=0) + 1
+    except OSError:  # a folder that may be written, but not be listed
+        return 1
 
 
 def find_run(name_or_path: str, parent: Path) -> RunDirectory:
@@ -113,7 +137,7 @@ def _make_folders(parent: Path) -> list[Path]:
     lacking = [folder for folder in (parent, *parent.parents) if not os.path.exists(folder)]
     for folder in reversed(lacking):
         try:
-            folder.mkdir(exist_ok=True)
+            folder.mkdir(PRIVATE_FOLDER, exist_ok=True)
         except OSError as error:
             _remove(made)
             raise _unwritable(parent, error) from error

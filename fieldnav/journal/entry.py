@@ -1,16 +1,32 @@
 """What the journal holds: an entry as the loop hands it over, and the line it becomes."""
 
 from dataclasses import dataclass
-from datetime import datetime, timedelta
+from datetime import UTC, datetime, timedelta
 from math import isfinite
-from typing import Any, Self
+from typing import Annotated, Any, Self
 
-from pydantic import BaseModel, ConfigDict
+from pydantic import AfterValidator, BaseModel, ConfigDict, Field
 
 from fieldnav.messages import Bound, Evidence, Frame, Twist
 
 DIGITS = 6
 """Decimals kept of a number: a micrometre, a microsecond; below lies noise that differs between machines."""
+MAX_STAMP_S = 1e10
+"""Of a run's line: 300 years, since a run that is taken up may have begun by a clock that stood at 1970."""
+MAX_LANES, MAX_ROWS, MAX_WAY_M = 1000, 1000, 1e7
+"""Of one mission: a thousand lanes of the longest field are 2000 km."""
+FIRST_UTC, LAST_UTC = datetime(1970, 1, 1, tzinfo=UTC), datetime(2200, 1, 1, tzinfo=UTC)
+"""What a clock may show; with the longest run beside it still a time that can be reckoned with."""
+MAX_SEQUENCE = 2**53
+"""What every reader of JSON keeps exactly."""
+
+
+def _of_a_clock(utc: datetime) -> datetime:
+    if utc.tzinfo is None:
+        raise ValueError("allowed is a time with its zone")
+    if not FIRST_UTC <= utc <= LAST_UTC:
+        raise ValueError(f"allowed is a time from {FIRST_UTC.year} to {LAST_UTC.year}")
+    return utc
 
 
 @dataclass(frozen=True, slots=True)
@@ -71,14 +87,14 @@ class Line(BaseModel):
 
     model_config = ConfigDict(frozen=True, allow_inf_nan=False)
 
-    seq: int
-    stamp_s: float
-    utc: datetime
+    seq: int = Field(ge=0, le=MAX_SEQUENCE)
+    stamp_s: float = Field(ge=-MAX_STAMP_S, le=MAX_STAMP_S)
+    utc: Annotated[datetime, AfterValidator(_of_a_clock)]
     event: str
     source: str
     target: str
-    lane: int | None = None
-    rows: int | None = None
+    lane: int | None = Field(default=None, ge=0, le=MAX_LANES)
+    rows: int | None = Field(default=None, ge=0, le=MAX_ROWS)
     evidence: tuple[Judged, ...] = ()
     frame: dict[str, str | int | float | None] | None = None
     command: dict[str, float | None] | None = None

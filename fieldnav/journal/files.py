@@ -1,6 +1,9 @@
-"""Writing a whole file or none of it, and whole lines or none of them."""
+"""Writing a whole file or none of it, and whole lines or none of them; for their owner alone to read."""
 
+import fcntl
 import os
+import stat
+import tempfile
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
 from io import FileIO
@@ -8,11 +11,42 @@ from pathlib import Path
 
 from fieldnav.errors import OutputError
 
+PRIVATE_FOLDER, PRIVATE_FILE = 0o700, 0o600
+"""A run's settings hold the passwords of its cameras, and its pictures what they saw."""
+
+
+def private(path: str, flags: int) -> int:
+    """Opens a file that only its owner may read, whatever the umask; for `opener` of open()."""
+    return os.open(path, flags, PRIVATE_FILE)
+
+
+def check_replaceable(path: Path) -> None:
+    """Raises OutputError for what is neither a regular file, which may be replaced, nor a name still free."""
+    try:
+        mode = path.lstat().st_mode
+    except FileNotFoundError:
+        return
+    except OSError as error:
+        raise unwritable(path, error) from error
+    if not stat.S_ISREG(mode):
+        kinds = ((stat.S_ISDIR, "a folder"), (stat.S_ISLNK, "a link"))
+        kind = next((name for is_kind, name in kinds if is_kind(mode)), "a pipe or a device")
+        allowed = "allowed is a new name, or a regular file to replace"
+        raise OutputError(f"{path}: cannot be written: is {kind}; {allowed}")
+
 
 @contextmanager
 def whole_file(path: Path) -> Iterator[Path]:
-    """Where to write it: beside its place, which it takes once it is whole. Raises OutputError."""
-    beside = path.with_name(f".{path.name}.part")
+    """Where to write it: a file beside its place, which it takes once it is whole. Raises OutputError."""
+    check_replaceable(path)
+    try:
+        number, name = tempfile.mkstemp(prefix=".part-", suffix=path.suffix, dir=path.parent)
+        os.close(number)
+    except OSError as error:
+        raise OutputError(
+            f"{unwritable(path, error)}; allowed is a file in a folder you can write"
+        ) from error
+    beside = Path(name)
     try:
         yield beside
         beside.replace(path)
@@ -28,6 +62,17 @@ def write_atomically(path: Path, content: bytes) -> None:
         file.write(content)
         file.flush()
         os.fsync(file.fileno())
+
+
+@contextmanager
+def alone_in(folder: Path) -> Iterator[None]:
+    """Keep out other processes that do the same in this folder. Raises OSError."""
+    descriptor = os.open(folder, os.O_RDONLY | os.O_DIRECTORY)
+    try:
+        fcntl.flock(descriptor, fcntl.LOCK_EX)
+        yield
+    finally:
+        os.close(descriptor)
 
 
 def append_line(file: FileIO, line: bytes, sync: Callable[[], None]) -> None:

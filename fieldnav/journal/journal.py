@@ -10,12 +10,12 @@ from pathlib import Path
 from types import TracebackType
 from typing import Any, Self
 
-from pydantic import ValidationError
-
-from fieldnav.errors import FieldnavError
+from fieldnav.errors import FieldnavError, SettingsError
 from fieldnav.faults import FaultKind, Trouble
 from fieldnav.journal.entry import Entry, Line, line_of
-from fieldnav.journal.files import append_line, unwritable
+from fieldnav.journal.files import append_line, private, unwritable
+from fieldnav.settings.json_text import read_model
+from fieldnav.settings.regular_file import open_regular
 
 RESERVE_BYTES = 65536
 """Some fifty lines."""
@@ -38,8 +38,9 @@ class Journal:
         self._reserve = path.with_name(f".{path.name}.reserve")
         try:
             self._sequence = _repair(path)
-            self._file = path.open("ab", buffering=0)
-            self._reserve.write_bytes(bytes(RESERVE_BYTES))
+            self._file = open(path, "ab", buffering=0, opener=private)  # noqa: SIM115 - closed by close
+            with open(self._reserve, "wb", opener=private) as reserve:
+                reserve.write(bytes(RESERVE_BYTES))
             _sync_folder(path.parent)
         except OSError as error:
             raise unwritable(path, error) from error
@@ -89,18 +90,19 @@ def read(path: Path) -> list[Line]:
     Raises FieldnavError when the file cannot be read or another line is none of a journal's.
     """
     try:
-        content = path.read_bytes()
+        with open_regular(path) as file:
+            content = file.read()
     except OSError as error:
         raise FieldnavError(f"{path}: cannot be read: {error.strerror}") from error
     *texts, torn = content.split(b"\n")  # no other line break: a stray one may not hide what follows it
     lines = []
     for number, text in enumerate(texts, start=1):
         try:
-            lines.append(Line.model_validate_json(text))
-        except ValidationError as error:
+            lines.append(read_model(Line, text))
+        except SettingsError as error:
             if number == len(texts) and not torn:
                 break
-            raise FieldnavError(f"{path}: line {number} is not a line of a journal") from error
+            raise FieldnavError(f"{path}: line {number} is not a line of a journal: {error}") from error
     return lines
 
 

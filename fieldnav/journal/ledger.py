@@ -10,16 +10,23 @@ from concurrent.futures import Future, ThreadPoolExecutor
 from functools import partial
 from pathlib import Path
 from types import TracebackType
-from typing import Self
+from typing import Annotated, Literal, Self
 
-from pydantic import BaseModel, ConfigDict, ValidationError
+from pydantic import BaseModel, ConfigDict, Field
 
-from fieldnav.errors import FieldnavError, OutputError
-from fieldnav.journal.files import append_line, unwritable
+from fieldnav.errors import FieldnavError, OutputError, SettingsError
+from fieldnav.journal.entry import MAX_LANES, MAX_ROWS, MAX_STAMP_S, MAX_WAY_M
+from fieldnav.journal.files import append_line, private, unwritable
 from fieldnav.journal.ledger_lock import hold
+from fieldnav.settings.json_text import read_model
+from fieldnav.settings.regular_file import open_regular
 
 LAST_BYTES = 65536
 """Of the file's end, in which a whole line is looked for: a hundred of them."""
+
+
+Lane = Annotated[int, Field(ge=1, le=MAX_LANES)]
+Way = Annotated[float, Field(ge=-MAX_WAY_M, le=MAX_WAY_M)]
 
 
 class Booking(BaseModel):
@@ -27,20 +34,20 @@ class Booking(BaseModel):
 
     model_config = ConfigDict(frozen=True, extra="forbid", allow_inf_nan=False)
 
-    stamp_s: float
+    stamp_s: float = Field(ge=0, le=MAX_STAMP_S)
     state: str
-    side: str
-    lanes: int
-    lane: int
-    done: tuple[int, ...]
-    rows: int
-    forward_m: float
-    sideways_m: float
-    lane_from_m: float | None = None
-    lane_length_m: float | None = None
-    expected_m: float | None = None
-    pitches_m: tuple[float, ...] = ()
-    sidestep_from_m: float | None = None
+    side: Literal["right", "left"]
+    lanes: Lane
+    lane: Lane
+    done: tuple[Lane, ...]
+    rows: int = Field(ge=0, le=MAX_ROWS)
+    forward_m: Way
+    sideways_m: Way
+    lane_from_m: Way | None = None
+    lane_length_m: Way | None = None
+    expected_m: Way | None = None
+    pitches_m: tuple[Way, ...] = ()
+    sidestep_from_m: Way | None = None
     finished: bool = False
 
 
@@ -53,7 +60,7 @@ class Ledger:
     def __init__(self, path: Path) -> None:
         self._path = path
         try:
-            self._file = path.open("ab", buffering=0)
+            self._file = open(path, "ab", buffering=0, opener=private)  # noqa: SIM115 - closed by close
         except OSError as error:
             raise unwritable(path, error) from error
         try:
@@ -98,8 +105,8 @@ class Ledger:
 def last_booking(path: Path) -> Booking | None:
     """The newest whole line of a ledger; None where there is no ledger or no line. Raises FieldnavError."""
     try:
-        with path.open("rb") as file:
-            file.seek(max(0, path.stat().st_size - LAST_BYTES))
+        with open_regular(path) as file:
+            file.seek(max(0, file.seek(0, os.SEEK_END) - LAST_BYTES))
             content = file.read()
     except FileNotFoundError:
         return None
@@ -109,9 +116,9 @@ def last_booking(path: Path) -> Booking | None:
     if not lines:
         return None
     try:
-        return Booking.model_validate_json(lines[-1])
-    except ValidationError as error:
-        raise FieldnavError(f"{path}: its last line is none of a ledger's") from error
+        return read_model(Booking, lines[-1])
+    except SettingsError as error:
+        raise FieldnavError(f"{path}: its last line is none of a ledger's: {error}") from error
 
 
 def _whole_lines(path: Path) -> int:

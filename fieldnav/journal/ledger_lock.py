@@ -6,6 +6,8 @@ from contextlib import suppress
 from io import BufferedIOBase, RawIOBase
 from pathlib import Path
 
+from fieldnav.settings.regular_file import open_regular
+
 TRIES, ASKING_S = 3, 0.01
 """Who only asks whether a run is driven holds its ledger for far less than this. Our choice."""
 
@@ -25,7 +27,7 @@ def hold(file: File) -> None:
 def being_driven(ledger: Path) -> bool:
     """Whether a process holds the ledger, so that its run still goes on; asking holds it for a moment."""
     try:
-        with ledger.open("rb") as file:
+        with open_regular(ledger) as file:
             fcntl.flock(file, fcntl.LOCK_SH | fcntl.LOCK_NB)
     except BlockingIOError:
         return True

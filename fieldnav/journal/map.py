@@ -12,7 +12,7 @@ from matplotlib.collections import LineCollection
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
-from fieldnav.errors import OutputError
+from fieldnav.journal.files import whole_file
 from fieldnav.journal.phases import INK, OTHER, PHASE_COLOURS, phase_of
 from fieldnav.messages import Floats
 
@@ -60,10 +60,8 @@ def draw_map(path: Path, run: RunMap) -> None:
         run.title, loc="left", fontsize=13, fontweight="bold", color=INK, pad=24 if run.figures else 8
     )
     axes.text(0, 1.0, run.figures, transform=axes.transAxes, fontsize=9.5, color=INK, va="bottom")
-    try:
-        figure.savefig(path, dpi=DOTS_PER_INCH)
-    except OSError as error:
-        raise OutputError(f"{path}: cannot be written: {error.strerror}") from error
+    with whole_file(path) as beside:
+        figure.savefig(beside, dpi=DOTS_PER_INCH)
 
 
 def _extent(run: RunMap) -> tuple[Floats, Floats]:

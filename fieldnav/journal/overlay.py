@@ -1,6 +1,7 @@
 """overlay.mp4: the guiding camera's pictures with what the robot saw and decided drawn in."""
 
 from collections.abc import Sequence
+from contextlib import suppress
 from dataclasses import dataclass
 from math import degrees
 from pathlib import Path
@@ -11,6 +12,7 @@ import cv2
 import numpy as np
 
 from fieldnav.errors import OutputError
+from fieldnav.journal.files import private
 from fieldnav.messages import STANDSTILL, Centres, Image, RowLine, Twist
 
 ROW, HELD_ROW, FEATURE, CENTRE, TEXT = (
@@ -65,6 +67,8 @@ class OverlayWriter:
 
     def __init__(self, path: Path, size_px: tuple[int, int], rate_hz: float) -> None:
         self._size_px = size_px
+        with suppress(OSError), open(path, "xb", opener=private):
+            pass  # the writer keeps the mode of a file that exists
         self._video = cv2.VideoWriter(str(path), cv2.VideoWriter.fourcc(*CODEC), rate_hz, size_px)
         if not self._video.isOpened():
             raise OutputError(f"{path}: the video cannot be written; allowed is a folder you can write")

@@ -1,17 +1,17 @@
 """settings.yaml: everything in force during a run, resolved, with the application's version."""
 
 from collections.abc import Hashable, Mapping
+from contextlib import ExitStack, suppress
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
-import yaml
-
 from fieldnav import __version__
 from fieldnav.errors import SettingsError
-from fieldnav.journal.files import write_atomically
+from fieldnav.journal.directory import next_number
+from fieldnav.journal.files import alone_in, write_atomically
 from fieldnav.settings.crop import CropProfile
-from fieldnav.settings.documents import parse_mapping, read_text
+from fieldnav.settings.documents import parse_mapping, read_text, written
 from fieldnav.settings.field import FieldSettings
 from fieldnav.settings.loading import checked
 from fieldnav.settings.robot import Robot
@@ -19,6 +19,8 @@ from fieldnav.settings.robot import Robot
 HEADER = (
     "# Everything that was in force in this run, defaults included. A record: changing it changes nothing.\n"
 )
+DRIVEN_UTC = "driven_utc"
+"""The option of a simulated run that has the real time at which it was driven; its journal has none."""
 
 Option = str | int | float | bool | None
 
@@ -39,12 +41,18 @@ def write_settings(
     field: FieldSettings | None = None,
     options: Mapping[str, Option] | None = None,
 ) -> None:
-    """Write the whole file or nothing; `field` in simulation only. Raises OutputError."""
-    document: dict[str, object] = {"fieldnav": __version__, "options": dict(options or {})}
+    """Write the whole file or nothing, with the run's number; `field` in simulation only.
+
+    Raises OutputError.
+    """
     parts = {"crop": crop, "robot": robot, "field": field}
-    document |= {name: part.model_dump(mode="json") for name, part in parts.items() if part is not None}
-    text = HEADER + yaml.safe_dump(document, sort_keys=False, allow_unicode=True, width=110)
-    write_atomically(path, text.encode())
+    given = {name: part.model_dump(mode="json") for name, part in parts.items() if part is not None}
+    runs = path.parent.parent
+    with ExitStack() as stack:
+        with suppress(OSError):  # a disk that knows no locks: two runs at once may have the same number
+            stack.enter_context(alone_in(runs))
+        document = {"fieldnav": __version__, "run": next_number(runs), "options": dict(options or {})}
+        write_atomically(path, f"{HEADER}{written(document | given)}".encode())
 
 
 def read_settings(path: Path) -> Settings:

@@ -2,10 +2,12 @@
 
 from pathlib import Path
 
-from pydantic import BaseModel, ConfigDict, ValidationError
+from pydantic import BaseModel, ConfigDict
 
-from fieldnav.errors import FieldnavError
+from fieldnav.errors import FieldnavError, SettingsError
 from fieldnav.journal.files import write_atomically
+from fieldnav.settings.json_text import read_model
+from fieldnav.settings.regular_file import open_regular
 
 
 class _Figures(BaseModel):
@@ -98,10 +100,11 @@ def write_summary(path: Path, summary: Summary) -> None:
 def read_summary(path: Path) -> Summary | None:
     """A run's figures; None when it ended before they were written. Raises FieldnavError."""
     try:
-        return Summary.model_validate_json(path.read_bytes())
+        with open_regular(path) as file:
+            return read_model(Summary, file.read())
     except FileNotFoundError:
         return None
     except OSError as error:
         raise FieldnavError(f"{path}: cannot be read: {error.strerror}") from error
-    except ValidationError as error:
-        raise FieldnavError(f"{path}: is not the summary of a run") from error
+    except SettingsError as error:
+        raise FieldnavError(f"{path}: is not the summary of a run: {error}") from error

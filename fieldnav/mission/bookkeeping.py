@@ -3,9 +3,11 @@
 from dataclasses import asdict
 from math import hypot
 
-from fieldnav.errors import FieldnavError
+from fieldnav.errors import SettingsError
 from fieldnav.journal.ledger import Booking, Ledger
 from fieldnav.mission.travel import Travel
+from fieldnav.settings.one_line import one_line
+from fieldnav.settings.problems import shortened
 from states.behaviour import Task
 from states.behaviours import Behaviours
 from states.names import Path, Phase, text
@@ -67,9 +69,12 @@ class Bookkeeping:
 
 
 def place_of(booking: Booking) -> Place:
-    """The place that a line of the ledger means. Raises FieldnavError for a state that there is not."""
+    """The place that a line of the ledger means. Raises SettingsError for a state that there is not."""
     leaf = LEAF_NAMED.get(booking.state)
     if leaf not in LANE_LEAVES:
-        raise FieldnavError(f"ledger: state '{booking.state}' is none of a lane's")
+        state = shortened(one_line(booking.state))
+        raise SettingsError(
+            f"state: '{state}' is none of a lane's; allowed is such as {text(LANE_LEAVES[0])}"
+        )
     known = booking.model_dump(exclude={"stamp_s", "state", "side", "lanes", "finished"})
     return Place(leaf=leaf, **known)

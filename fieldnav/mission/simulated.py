@@ -19,7 +19,7 @@ from fieldnav.evaluation.truth import headland, judge
 from fieldnav.journal.directory import RunDirectory
 from fieldnav.journal.journal import Journal
 from fieldnav.journal.ledger import Ledger
-from fieldnav.journal.resolved import write_settings
+from fieldnav.journal.resolved import DRIVEN_UTC, write_settings
 from fieldnav.journal.summary import Summary, write_summary
 from fieldnav.messages import CameraName, Side
 from fieldnav.mission.figures import Figures
@@ -86,8 +86,10 @@ def simulate(run: Run, observers: Sequence[Observer] = ()) -> Simulated:
     check_size(run.field, run.crop)
     cv2.setNumThreads(1)
     plan = sow(run.field, run.crop, run.side)
-    directory = RunDirectory.create(run.parent, run.field.name, datetime.now(UTC))
+    driven = datetime.now(UTC)
+    directory = RunDirectory.create(run.parent, run.field.name, driven)
     options = {"lanes": run.lanes, "side": run.side.value, "video": run.video, "realtime": run.realtime}
+    options |= {DRIVEN_UTC: driven.isoformat(timespec="seconds")}
     write_settings(directory.settings, run.crop, run.robot, run.field, options)
     with ExitStack() as stack:
         host, far_end = open_virtual_pair()

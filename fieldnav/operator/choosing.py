@@ -12,9 +12,12 @@ NEWEST = "last"
 
 
 def driven_in(sockets: Sequence[Path], runs: Path) -> list[Path]:
-    """Those of the missions whose run directories lie in a folder. Raises FieldnavError."""
+    """Those of the missions whose run directories lie in a folder, that made last first.
+
+    Raises FieldnavError.
+    """
     names = [run.path.name for run in runs_in(runs)]
-    return [path for path in sockets if any(socket_path(path.parent, name) == path for name in names)]
+    return [path for name in names for path in sockets if socket_path(path.parent, name) == path]
 
 
 def choose(sockets: Sequence[Path], run: str | None) -> Path:

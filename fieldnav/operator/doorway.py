@@ -1,18 +1,16 @@
 """A listening local socket in the file system: made over a dead one's file, never over a live one's."""
 
-import fcntl
 import os
 import socket
 import stat
-from collections.abc import Iterator
-from contextlib import contextmanager, suppress
+from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Self
 
 from fieldnav.errors import OutputError
+from fieldnav.journal.files import PRIVATE_FILE, alone_in
 
-PRIVATE_FILE = 0o600
 BACKLOG = 16
 """Callers that may wait between two rounds of the loop."""
 PROBE_S = 0.5
@@ -47,7 +45,7 @@ class Doorway:
         listener = socket.socket(socket.AF_UNIX, socket.SOCK_STREAM)
         try:
             listener.setblocking(False)
-            with _alone_in(path.parent):
+            with alone_in(path.parent):  # other missions neither clear nor make a socket
                 _clear(path)
                 listener.bind(os.fspath(path))
                 path.chmod(PRIVATE_FILE)
@@ -66,17 +64,6 @@ class Doorway:
         with suppress(OSError):
             if _file(self.path) == self.file:
                 self.path.unlink()
-
-
-@contextmanager
-def _alone_in(folder: Path) -> Iterator[None]:
-    """Keep other missions from clearing or making a socket in the folder meanwhile."""
-    descriptor = os.open(folder, os.O_RDONLY | os.O_DIRECTORY)
-    try:
-        fcntl.flock(descriptor, fcntl.LOCK_EX)
-        yield
-    finally:
-        os.close(descriptor)
 
 
 def _clear(path: Path) -> None:

@@ -5,8 +5,9 @@ from dataclasses import asdict
 
 from pydantic import BaseModel, ConfigDict, TypeAdapter, ValidationError
 
-from fieldnav.errors import FieldnavError
+from fieldnav.errors import FieldnavError, SettingsError
 from fieldnav.operator.request import Answer, Command
+from fieldnav.settings.json_text import parse_json, read_model
 
 END = b"\n"
 LONGEST_REQUEST_BYTES = 1024
@@ -37,9 +38,9 @@ def request_line(command: Command) -> bytes:
 def read_request(line: bytes) -> Command:
     """The command in a line without its end. Raises FieldnavError for everything else."""
     try:
-        return _Asked.model_validate_json(line).command
-    except ValidationError as error:
-        raise FieldnavError(f"not understood; allowed is {ALLOWED}") from error
+        return read_model(_Asked, line).command
+    except SettingsError as error:
+        raise FieldnavError(f"not understood: {error}; allowed is {ALLOWED}") from error
 
 
 def answer_line(answer: Answer) -> bytes:
@@ -50,6 +51,7 @@ def answer_line(answer: Answer) -> bytes:
 def read_answer(line: bytes) -> Answer:
     """The answer in a line. Raises FieldnavError where it is none."""
     try:
+        parse_json(line)
         return _ANSWER.validate_json(line)
-    except ValidationError as error:
+    except (SettingsError, ValidationError) as error:
         raise FieldnavError("the mission's answer is not understood; is it of another version?") from error

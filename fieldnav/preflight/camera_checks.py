@@ -4,12 +4,12 @@ from collections.abc import Iterator, Mapping
 from pathlib import Path
 
 from drivers.recorded_camera import PICTURES
-from drivers.shown_source import shown
 from fieldnav.messages import CameraName, Frame
 from fieldnav.perception.pose.picture_quality import BLACK, WHITE, difference, quality, same
 from fieldnav.preflight.finding import Finding, Verdict
 from fieldnav.preflight.sampling import PATIENCE_S, Taken
 from fieldnav.settings.camera import CameraSettings
+from fieldnav.settings.shown_source import shown
 
 LEAST_GAP_S = 0.005
 """No camera is faster than 200 frames a second; frames that came at once have no rate."""

@@ -9,11 +9,11 @@ import can
 from drivers.can_log import open_bus
 from drivers.opencv_camera import open_camera
 from drivers.ports import Camera
-from drivers.shown_source import shown
 from fieldnav.errors import DriverError
 from fieldnav.messages import CameraName
 from fieldnav.preflight.finding import Finding, Verdict
 from fieldnav.settings.robot import Bus, Robot
+from fieldnav.settings.shown_source import shown
 
 BITS_PER_KILOBIT = 1000
 

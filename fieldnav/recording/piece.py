@@ -10,6 +10,7 @@ from typing import BinaryIO, Protocol
 from mcap.writer import CompressionType, Writer
 
 from fieldnav import __version__
+from fieldnav.journal.files import private
 from fieldnav.recording.message import Message, Topic
 from fieldnav.recording.schemas import schema_of
 from fieldnav.recording.stamps import Stamps
@@ -30,8 +31,8 @@ class Opening(Protocol):
 
 
 def new_file(path: Path) -> BinaryIO:
-    """A new file, never one that exists. Raises OSError."""
-    return path.open("xb")
+    """A new file for its owner alone, never one that exists. Raises OSError."""
+    return open(path, "xb", opener=private)
 
 
 class Piece:

@@ -2,22 +2,26 @@
 
 from pathlib import Path
 
-from pydantic import ValidationError
-
-from fieldnav.errors import FieldnavError
+from fieldnav.errors import FieldnavError, SettingsError
 from fieldnav.journal.ledger import Booking
+from fieldnav.settings.json_text import read_model
+from fieldnav.settings.regular_file import open_regular
 
 
 def bookings_of(path: Path) -> list[Booking]:
     """The whole lines of a ledger, none where there is no ledger. Raises FieldnavError."""
     try:
-        content = path.read_bytes()
+        with open_regular(path) as file:
+            content = file.read()
     except FileNotFoundError:
         return []
     except OSError as error:
         raise FieldnavError(f"{path}: cannot be read: {error.strerror}") from error
     *texts, _ = content.split(b"\n")
-    try:
-        return [Booking.model_validate_json(text) for text in texts]
-    except ValidationError as error:
-        raise FieldnavError(f"{path}: holds a line that is none of a ledger's") from error
+    bookings = []
+    for number, text in enumerate(texts, start=1):
+        try:
+            bookings.append(read_model(Booking, text))
+        except SettingsError as error:
+            raise FieldnavError(f"{path}: line {number} is none of a ledger's: {error}") from error
+    return bookings

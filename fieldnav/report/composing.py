@@ -1,14 +1,14 @@
 """Puts together what the page shows of a run."""
 
 from collections.abc import Sequence
-from datetime import UTC
+from datetime import UTC, datetime
 
 from fieldnav.errors import FieldnavError
 from fieldnav.inquiry.evidence_rows import condition_rows, evidence_rows
 from fieldnav.inquiry.near_misses import NearMiss
 from fieldnav.inquiry.outcome import Outcome, overview
 from fieldnav.inquiry.stops import stands
-from fieldnav.journal.resolved import read_settings
+from fieldnav.journal.resolved import DRIVEN_UTC, read_settings
 from fieldnav.report.chart import chart_of
 from fieldnav.report.curves import driving_panels, health_panels
 from fieldnav.report.drawn_map import map_of
@@ -39,7 +39,7 @@ def compose(material: Material, pictures: Pictures) -> Page:
     marks = [(each.stop.line.stamp_s, str(each.number)) for each in told if each.stop.kind is not Kind.NOTE]
     return Page(
         name=material.directory.path.name,
-        began=f"{lines[0].utc.astimezone(UTC):%Y-%m-%d %H:%M:%S} UTC" if lines else "",
+        began=_began(material),
         headline=headline(material, ended, stops, end_s),
         missing=_missing(material, ended.outcome),
         map=map_of(material),
@@ -57,6 +57,26 @@ def compose(material: Material, pictures: Pictures) -> Page:
         lines_left_out=max(0, len(lines) - MOST_LINES),
         settings=settings_groups(material.settings),
     )
+
+
+def _began(material: Material) -> str:
+    """When the run began; of a simulated one also when it was really driven, where its settings say."""
+    if not material.lines:
+        return ""
+    began = _time_of(material.lines[0].utc)
+    if "field" not in material.settings:
+        return began
+    options = material.settings.get("options")
+    driven = options.get(DRIVEN_UTC) if isinstance(options, dict) else None
+    try:
+        really = f"; really driven {_time_of(datetime.fromisoformat(str(driven)))}"
+    except (ValueError, OverflowError):
+        really = ""
+    return f"{began} by the simulated clock{really}"
+
+
+def _time_of(utc: datetime) -> str:
+    return f"{utc.astimezone(UTC):%Y-%m-%d %H:%M:%S} UTC"
 
 
 def stretches(material: Material) -> tuple[list[Span], list[Stop], float]:

@@ -8,6 +8,7 @@ import cv2
 import numpy as np
 
 from fieldnav.messages import Image
+from fieldnav.settings.regular_file import open_regular
 
 WIDTH_PX, QUALITY = 640, 72
 """Of a frame as it is shown: some 60 kB."""
@@ -35,7 +36,8 @@ def shown(image: Image, caption: str) -> Shown:
 def map_uri(path: Path) -> str:
     """A map's picture inside the page, scaled down where it is large; empty when there is none."""
     try:
-        content = path.read_bytes()
+        with open_regular(path) as file:
+            content = file.read()
     except OSError:
         return ""
     image = cv2.imdecode(np.frombuffer(content, np.uint8), cv2.IMREAD_COLOR) if content else None

@@ -11,9 +11,10 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Patch
 from matplotlib.ticker import FuncFormatter
 
-from fieldnav.errors import FieldnavError, OutputError
+from fieldnav.errors import FieldnavError
 from fieldnav.inquiry.outcome import overview
 from fieldnav.journal.directory import RunDirectory
+from fieldnav.journal.files import check_replaceable, whole_file
 from fieldnav.journal.phases import INK, PHASE_COLOURS
 from fieldnav.report.composing import stretches
 from fieldnav.report.curves import Panel, driving_panels, panel_range
@@ -35,18 +36,16 @@ def write_plot(directory: RunDirectory, path: Path) -> list[str]:
 
     Raises FieldnavError for an unreadable journal, OutputError.
     """
+    check_replaceable(path)
     problems = Problems()
     with open_recording(directory, problems) or nullcontext() as recording:
         material = gather(directory, recording, problems)
     if not material.readable:
         raise FieldnavError(material.problems[0])
     figure = plot_of(material)
-    try:
-        with mpl.rc_context({"svg.hashsalt": SALT, "svg.fonttype": "none"}):
-            metadata = {"Date": None} if path.suffix.lower() == ".svg" else {"Software": None}
-            figure.savefig(path, dpi=DOTS_PER_INCH, metadata=metadata)
-    except OSError as error:
-        raise OutputError(f"{path}: cannot be written: {error.strerror or error}") from error
+    metadata = {"Date": None} if path.suffix.lower() == ".svg" else {"Software": None}
+    with whole_file(path) as beside, mpl.rc_context({"svg.hashsalt": SALT, "svg.fonttype": "none"}):
+        figure.savefig(beside, dpi=DOTS_PER_INCH, metadata=metadata)
     return problems.said if material.recorded else [*problems.said, WITHOUT_RECORDING]
 
 

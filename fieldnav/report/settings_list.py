@@ -3,6 +3,8 @@
 from collections.abc import Iterator, Mapping
 from typing import Any
 
+from fieldnav.settings.shown_source import HIDDEN, is_secret, shown
+
 GENERAL = "run"
 
 
@@ -22,7 +24,7 @@ def _flat(part: Mapping[Any, Any], before: str = "") -> Iterator[tuple[str, str]
         if isinstance(value, Mapping) and value:
             yield from _flat(value, f"{name}.")
         else:
-            yield name, _text(value)
+            yield name, HIDDEN if is_secret(name) else _text(value)
 
 
 def _text(value: object) -> str:
@@ -30,4 +32,4 @@ def _text(value: object) -> str:
         return ", ".join(map(_text, value))
     if isinstance(value, bool):
         return "yes" if value else "no"
-    return "" if value is None else str(value)
+    return "" if value is None else shown(str(value))

@@ -1,6 +1,6 @@
-"""Reading a YAML file strictly: plain data only, one mapping at the root, no key twice."""
+"""Reading a YAML file strictly: plain data only, one mapping at the root, no key twice; and writing one."""
 
-from collections.abc import Hashable
+from collections.abc import Hashable, Mapping
 from typing import Any
 
 import yaml
@@ -8,10 +8,26 @@ import yaml
 from fieldnav.errors import SettingsError
 from fieldnav.settings.one_line import one_line
 from fieldnav.settings.regular_file import read_regular
+from fieldnav.settings.scalars import QUOTED
 from fieldnav.settings.strict_loader import RefusedError, StrictLoader
 
 LARGEST_FILE_BYTES = 100_000
 """Forty times the longest file that comes with fieldnav; what is larger is some other file."""
+
+
+LINE_WIDTH = 110
+"""Characters at which long text of a written file is folded."""
+
+
+class _Dumper(yaml.SafeDumper):
+    """Puts text in quotes that the strict loader would refuse or read as something else."""
+
+    yaml_implicit_resolvers = QUOTED
+
+
+def written(document: Mapping[str, object]) -> str:
+    """A document of plain values as YAML that `parse` reads as the same."""
+    return yaml.dump(dict(document), Dumper=_Dumper, sort_keys=False, allow_unicode=True, width=LINE_WIDTH)
 
 
 def parse_mapping(text: str, label: str) -> dict[Hashable, Any]:

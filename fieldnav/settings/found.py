@@ -3,10 +3,13 @@
 from collections.abc import Iterator, Mapping, Sequence
 from enum import Enum
 from types import UnionType
-from typing import Any, get_args, get_origin
+from typing import Any, Union, get_args, get_origin
 
 from pydantic import BaseModel
 from pydantic.fields import FieldInfo
+
+UNIONS = (UnionType, Union)
+"""Both are written `A | B`; which one it is depends on what A is."""
 
 
 class Found:
@@ -49,7 +52,7 @@ def known_part(model: type[BaseModel], location: Sequence[int | str]) -> list[in
     """The location up to where several kinds of value are allowed; beyond, pydantic names those it tried."""
     found, known = Found(model), []
     for part in location:
-        if get_origin(found.kind) is UnionType:
+        if get_origin(found.kind) in UNIONS:
             break
         known.append(part)
         found = found.child(part)

@@ -21,7 +21,7 @@ from fieldnav.settings.fit import check_fit, check_size
 from fieldnav.settings.kinds import Kind, is_path, names_of
 from fieldnav.settings.model import Settings
 from fieldnav.settings.one_line import one_line
-from fieldnav.settings.problems import MOST_DESCRIBED, describe, nearest, shortened
+from fieldnav.settings.problems import MAX_REPORTED, MOST_DESCRIBED, describe, nearest, shortened
 from fieldnav.settings.robot import Robot
 
 __all__ = [
@@ -35,9 +35,6 @@ __all__ = [
     "names_of",
     "revised",
 ]
-
-MOST_PROBLEMS = 3
-"""Problems of one file that are reported at once; a line of more is not read."""
 
 Model = TypeVar("Model", bound=Settings)
 
@@ -94,9 +91,9 @@ def checked(
         return model.model_validate_json(json.dumps(_plain(document)), strict=True)
     except ValidationError as error:
         lines = describe(error, model, called or {})
-        count = "" if error.error_count() > MOST_DESCRIBED else f" {len(lines) - MOST_PROBLEMS}"
-        rest = f"; and{count} more" if len(lines) > MOST_PROBLEMS else ""
-        said = "; ".join(lines[:MOST_PROBLEMS]) + rest
+        count = "" if error.error_count() > MOST_DESCRIBED else f" {len(lines) - MAX_REPORTED}"
+        rest = f"; and{count} more" if len(lines) > MAX_REPORTED else ""
+        said = "; ".join(lines[:MAX_REPORTED]) + rest
         raise SettingsError(f"{label}: {said}" if label else said) from error
 
 

@@ -2,20 +2,26 @@
 
 import json
 from collections.abc import Mapping, Sequence
+from datetime import datetime
 from difflib import get_close_matches
-from types import NoneType, UnionType
+from types import NoneType
 from typing import Literal, get_args, get_origin
 
 from pydantic import BaseModel, ValidationError
 from pydantic_core import ErrorDetails
 
-from fieldnav.settings.found import Found, find, is_enum, is_model, known_part
+from fieldnav.settings.found import UNIONS, Found, find, is_enum, is_model, known_part
 from fieldnav.settings.one_line import one_line
+from fieldnav.settings.scalars import written_out
+from fieldnav.settings.shown_source import HIDDEN, is_secret, shown
 
 LONGEST_VALUE = 40
 """Characters of a bad value that are quoted; the rest would bury the message."""
 
 BOUND_DIGITS = 12
+
+MAX_REPORTED = 3
+"""Problems of one text that are reported at once; a line of more is not read."""
 
 MOST_DESCRIBED = 50
 """Problems of one file that are looked at; finding what was meant takes time for each."""
@@ -50,7 +56,7 @@ def _line(problem: ErrorDetails, model: type[BaseModel], called: Mapping[str, st
     key = shortened(".".join(str(part) for part in location))
     key = called.get(key, key)
     found, owner = find(model, location), find(model, location[:-1])
-    value = _quoted(problem["input"])
+    value = HIDDEN if is_secret(key) else _quoted(problem["input"])
     if "[key]" in problem["loc"]:
         return f"{key}: there is no such key; {nearest(str(location[-1]), _keys(owner))}"
     match problem["type"]:
@@ -63,7 +69,15 @@ def _line(problem: ErrorDetails, model: type[BaseModel], called: Mapping[str, st
             if is_model(found.kind):  # the reason names what in the group does not go together
                 return f"{key}: {reason}" if key else reason
             return f"{key}: {value}: {reason}"
-    return f"{key}: {value} is not allowed; allowed is {_allowed(found)}"
+    return f"{key}: {value} is not allowed; allowed is {_allowed(found)}{_instead(found, problem['input'])}"
+
+
+def _instead(found: Found, value: object) -> str:
+    """Advice on text where a number belongs, if that text looks like one."""
+    if found.kind not in (int, float) or not isinstance(value, str):
+        return ""
+    number = written_out(value)
+    return f"; write {number}" if number else ""
 
 
 def nearest(word: str, known: Sequence[str]) -> str:
@@ -95,9 +109,10 @@ def _kind(found: Found) -> str:
         return " or ".join(str(member.value) for member in kind)
     if get_origin(kind) is Literal:
         return " or ".join(str(value) for value in get_args(kind))
-    if get_origin(kind) in (dict, tuple, UnionType):
+    if get_origin(kind) in (dict, tuple, *UNIONS):
         return _made_of(found)
     names = {float: "a number", int: "a whole number", bool: "true or false", str: "text"}
+    names |= {datetime: "a time with its zone"}
     return " ".join([names.get(kind, "another value"), *_limits(found)])
 
 
@@ -106,7 +121,7 @@ def _made_of(found: Found) -> str:
     arguments = get_args(found.kind)
     if get_origin(found.kind) is dict:
         return f"a group of keys, each with {_kind(Found(arguments[1]))}"
-    if get_origin(found.kind) is UnionType:
+    if get_origin(found.kind) in UNIONS:
         kinds = [_kind(Found(each, found.constraints)) for each in arguments if each is not NoneType]
         return " or ".join([*kinds, "null"] if NoneType in arguments else kinds)
     if arguments[-1] is Ellipsis:
@@ -132,7 +147,7 @@ def _plain(bound: float) -> str:
 
 def _quoted(value: object) -> str:
     text = f"'{value}'" if isinstance(value, str) else json.dumps(value, default=str)
-    return shortened(text)
+    return shortened(shown(text))
 
 
 def shortened(text: str) -> str:

@@ -11,6 +11,8 @@ from fieldnav.settings.model import Settings
 from fieldnav.settings.one_line import one_line
 from fieldnav.settings.problems import shortened
 from fieldnav.settings.robot import Robot
+from fieldnav.settings.shown_source import shown
+from fieldnav.settings.strict_loader import RefusedError
 
 Model = TypeVar("Model", bound=Settings)
 
@@ -20,7 +22,7 @@ def all_changed(crop: CropProfile, robot: Robot, changes: Iterable[str]) -> tupl
     for change in changes:
         key, equals, value = change.partition("=")
         if not equals:
-            said = f"--set {shortened(one_line(change))}: has no '='"
+            said = f"--set {shortened(shown(one_line(change)))}: has no '='"
             raise SettingsError(f"{said}; allowed is KEY=VALUE, say speeds.follow_mps=0.4")
         if key.startswith("robot."):
             robot = changed(robot, key.removeprefix("robot."), value)
@@ -45,5 +47,7 @@ def changed(settings: Model, key: str, text: str) -> Model:
     try:
         place[last] = parse(text, "--set")
     except SettingsError as error:
-        raise SettingsError(f"--set {key}: '{shortened(one_line(text))}' is no value") from error
+        cause = error.__cause__
+        why = f": {one_line(str(cause.problem))}" if isinstance(cause, RefusedError) else ""
+        raise SettingsError(f"--set {key}: '{shortened(shown(one_line(text)))}' is no value{why}") from error
     return checked(type(settings), document, "--set")

@@ -1,12 +1,15 @@
 """The part of YAML that settings need: mappings, lists, text, numbers, true and false."""
 
-import re
 import unicodedata
 from collections.abc import Hashable
 from typing import Any
 
 import yaml
 from yaml.constructor import ConstructorError
+
+from fieldnav.settings.problems import shortened
+from fieldnav.settings.scalars import AMBIGUOUS, RESOLVERS, STRING, advice
+from fieldnav.settings.shown_source import is_secret
 
 DEEPEST_NESTING = 20
 """Levels of a document; settings have four."""
@@ -17,7 +20,6 @@ _WRITTEN_OUT = "; write the values out"
 _LINE_BREAKS_AND_TABS = "\n\r\t"
 _NOT_TEXT = ("Cc", "Cs")
 """Unicode's categories of control characters and of halves of a character."""
-_UNUSED_TAGS = tuple(f"tag:yaml.org,2002:{name}" for name in ("timestamp", "merge", "value"))
 
 
 class RefusedError(yaml.MarkedYAMLError):
@@ -30,25 +32,39 @@ class StrictLoader(yaml.SafeLoader):
     Without sharing a document is no larger than its file and no value holds itself.
     """
 
-    # What is left of the library's guesses; a date stays the text it was written as.
-    yaml_implicit_resolvers = {  # noqa: RUF012 - the library's own attribute, its type is given
-        first: [(tag, pattern) for tag, pattern in guesses if tag not in _UNUSED_TAGS]
-        for first, guesses in yaml.SafeLoader.yaml_implicit_resolvers.items()
-    }
+    yaml_implicit_resolvers = RESOLVERS  # instead of the library's guesses, which are those of YAML 1.1
 
     def __init__(self, text: str) -> None:
         super().__init__(text)
         self._depth = 0
+        self._path: list[str] = []
 
     def compose_node(self, parent: yaml.Node | None, index: Any) -> yaml.Node | None:
-        """Refuse what is too late to refuse in the finished document."""
+        """Refuse what is too late to refuse in the finished document; a key is the text it is written as."""
         event = self.peek_event()  # type: ignore[no-untyped-call]  # yaml is typed in part
         self._depth += 1
         if problem := self._problem(event):
             raise RefusedError(problem=problem, problem_mark=event.start_mark)
+        self._path.append(str(index.value if isinstance(index, yaml.ScalarNode) else index))
         node = super().compose_node(parent, index)
+        if isinstance(node, yaml.ScalarNode):
+            if isinstance(parent, yaml.MappingNode) and index is None:
+                node.tag = STRING
+            self._check_scalar(node)
+        self._path.pop()
         self._depth -= 1
         return node
+
+    def _check_scalar(self, node: yaml.ScalarNode) -> None:
+        """Raises RefusedError for a value that could be taken for another one, with its key."""
+        if node.tag == STRING:
+            return
+        self._check_length(node)
+        if node.tag == AMBIGUOUS:
+            key = shortened(".".join(self._path[1:]))
+            said = "is not allowed as it is; write it in quotes" if is_secret(key) else advice(node.value)
+            problem = f"{key}: {said}" if key else said
+            raise RefusedError(problem=problem, problem_mark=node.start_mark)
 
     def _problem(self, event: Any) -> str:
         anchor, tag = getattr(event, "anchor", None), getattr(event, "tag", None)
@@ -86,12 +102,7 @@ class StrictLoader(yaml.SafeLoader):
         return text
 
     def construct_yaml_int(self, node: yaml.ScalarNode) -> int:
-        self._check_length(node)
-        return int(super().construct_yaml_int(node))
-
-    def construct_yaml_float(self, node: yaml.ScalarNode) -> float:
-        self._check_length(node)
-        return float(super().construct_yaml_float(node))
+        return int(node.value)
 
     def _check_length(self, node: yaml.ScalarNode) -> None:
         if len(node.value) > LONGEST_NUMBER:
@@ -105,13 +116,7 @@ def _is_no_text(character: str) -> bool:
     return unicodedata.category(character) in _NOT_TEXT and character not in _LINE_BREAKS_AND_TABS
 
 
-for _name in ("str", "int", "float"):
+for _name in ("str", "int"):
     StrictLoader.add_constructor(
         f"tag:yaml.org,2002:{_name}", getattr(StrictLoader, f"construct_yaml_{_name}")
     )
-StrictLoader.add_implicit_resolver(
-    # YAML 1.1, which the library follows, takes 5e-4 for text; nobody who writes it means that.
-    "tag:yaml.org,2002:float",
-    re.compile(r"^[-+]?[0-9]+[eE][-+]?[0-9]+$"),
-    list("-+0123456789"),
-)

@@ -10,12 +10,12 @@ import pytest
 
 from drivers.opencv_camera import open_camera
 from drivers.ports import Camera
-from drivers.shown_source import shown
 from fieldnav.errors import DriverError
 from fieldnav.faults import FaultKind
 from fieldnav.messages import CameraName, Frame, Image
 from fieldnav.settings.camera import CameraSettings
 from fieldnav.settings.loading import load_robot
+from fieldnav.settings.shown_source import shown
 
 WIDTH_PX, HEIGHT_PX, RATE_HZ = 64, 48, 10.0
 COUNT, STEP = 12, 20

@@ -98,6 +98,7 @@ def test_a_video_holds_every_picture_at_its_rate(tmp_path: Path) -> None:
         for number in range(5):
             video.write(draw_overlay(OverlayView(SOIL, "Idle", number / 15, "front")))
 
+    assert (tmp_path / "overlay.mp4").stat().st_mode & 0o777 == 0o600
     opened = cv2.VideoCapture(str(tmp_path / "overlay.mp4"))
     assert (opened.get(cv2.CAP_PROP_FRAME_COUNT), opened.get(cv2.CAP_PROP_FPS)) == (5, 15)
     found, first = opened.read()

@@ -174,5 +174,5 @@ def test_a_state_that_is_none_of_a_lanes_is_refused(state: str) -> None:
         stamp_s=0, state=state, side="left", lanes=1, lane=1, done=(), rows=0, forward_m=0, sideways_m=0
     )
 
-    with pytest.raises(FieldnavError, match=f"ledger: state '{state}' is none of a lane's"):
+    with pytest.raises(FieldnavError, match=f"^state: '{state}' is none of a lane's"):
         place_of(booking)

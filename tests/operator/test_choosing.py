@@ -67,6 +67,15 @@ def test_a_name_too_long_for_a_socket_finds_it_all_the_same() -> None:
     assert choose(sockets, name) == sockets[0]
 
 
+def test_of_the_missions_of_a_folder_the_last_is_the_one_made_last(tmp_path: Path) -> None:
+    for number, name in enumerate((NEW, OLD), start=1):  # the clock was set back in between
+        (tmp_path / name).mkdir()
+        (tmp_path / name / "journal.jsonl").touch()
+        (tmp_path / name / "settings.yaml").write_text(f"run: {number}\n")
+
+    assert choose(driven_in(SOCKETS, tmp_path), "last") == socket_path(FOLDER, OLD)
+
+
 def test_a_folder_of_runs_leaves_those_that_are_driven_in_it(tmp_path: Path) -> None:
     run = RunDirectory.create(tmp_path, "bonnbot", datetime(2026, 5, 1, 8, 30, tzinfo=UTC))
     run.journal.touch()

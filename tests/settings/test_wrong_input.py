@@ -69,10 +69,10 @@ CASES = {
         "per_lane: 2.5",
         ["rows.per_lane: 2.5", "a whole number from 1 to 8"],
     ),
-    "yes for a number": (
+    "true for a number": (
         Kind.CROP,
         "per_lane: 3",
-        "per_lane: yes",
+        "per_lane: true",
         ["rows.per_lane: true", "a whole number"],
     ),
     "a number that is none": (
@@ -331,7 +331,7 @@ def test_a_long_name_is_quoted_in_part(write: Write) -> None:
 
 
 @pytest.mark.parametrize(
-    ("options", "key"), [("no", "options"), ("[1]", "options"), ("{host: null}", "options.host")]
+    ("options", "key"), [("false", "options"), ("[1]", "options"), ("{host: null}", "options.host")]
 )
 def test_what_may_be_of_several_kinds_is_named_once_with_all_of_them(
     options: str, key: str, write: Write

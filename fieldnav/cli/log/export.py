@@ -7,8 +7,10 @@ import typer
 
 from fieldnav.cli.log.export_csv import transitions_csv
 from fieldnav.cli.log.options import RUNS, RunArgument, RunsOption
+from fieldnav.cli.output_folder import output_path
 from fieldnav.errors import SettingsError
 from fieldnav.journal.directory import find_run
+from fieldnav.journal.files import check_replaceable
 
 STANDARD_OUTPUT = Path("-")
 
@@ -16,10 +18,16 @@ STANDARD_OUTPUT = Path("-")
 def export(
     run: RunArgument = "last",
     csv: Annotated[
-        Path | None, typer.Option(help="Write a table to this file, - for standard output.")
+        Path | None,
+        typer.Option(
+            parser=output_path, metavar="FILE", help="Write a table to this file, - for standard output."
+        ),
     ] = None,
     mcap: Annotated[
-        Path | None, typer.Option(help="Write one MCAP file: the recording, else the journal.")
+        Path | None,
+        typer.Option(
+            parser=output_path, metavar="FILE", help="Write one MCAP file: the recording, else the journal."
+        ),
     ] = None,
     ticks: Annotated[
         bool, typer.Option("--ticks", help="In the table a row a tick of the recording, not a transition.")
@@ -52,11 +60,12 @@ def export(
 
 
 def _free(option: str, path: Path, force: bool) -> Path:
-    """The path, where nothing lies that would be lost. Raises SettingsError."""
+    """The path, where nothing lies that would be lost. Raises SettingsError, OutputError."""
     if path == STANDARD_OUTPUT:
         raise SettingsError(f"{option}: '-': allowed is the name of a file")
-    if path.is_dir():
+    if path.is_dir() and not path.is_symlink():
         raise SettingsError(f"{option}: {path}: is a folder; allowed is the name of a file")
+    check_replaceable(path)
     if path.exists() and not force:
         raise SettingsError(f"{option}: {path}: exists; allowed is another name, or --force")
     return path

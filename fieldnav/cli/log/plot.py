@@ -6,6 +6,7 @@ from typing import Annotated
 import typer
 
 from fieldnav.cli.log.options import RUNS, RunArgument, RunsOption
+from fieldnav.cli.output_folder import output_path
 from fieldnav.errors import SettingsError
 from fieldnav.journal.directory import find_run
 
@@ -19,7 +20,9 @@ def plot(
     out: Annotated[
         Path | None,
         typer.Option(
-            help=f"The file to write, .png or .svg, instead of {DEFAULT_NAME} in the run's directory."
+            parser=output_path,
+            metavar="FILE",
+            help=f"The file to write, .png or .svg, instead of {DEFAULT_NAME} in the run's directory.",
         ),
     ] = None,
 ) -> None:

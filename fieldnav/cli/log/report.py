@@ -6,6 +6,7 @@ from typing import Annotated
 import typer
 
 from fieldnav.cli.log.options import RUNS, RunArgument, RunsOption
+from fieldnav.cli.output_folder import output_path
 from fieldnav.journal.directory import find_run
 
 
@@ -13,7 +14,12 @@ def report(
     run: RunArgument = "last",
     runs: RunsOption = RUNS,
     out: Annotated[
-        Path | None, typer.Option(help="The file to write, instead of report.html in the run's directory.")
+        Path | None,
+        typer.Option(
+            parser=output_path,
+            metavar="FILE",
+            help="The file to write, instead of report.html in the run's directory.",
+        ),
     ] = None,
 ) -> None:
     """Write a run's report.html: outcome, map, lanes, stops and near misses with pictures, settings."""

@@ -1,13 +1,10 @@
 """The robot file that a client of the served robot drives by."""
 
-import os
-import tempfile
 from pathlib import Path
 
-import yaml
-
-from fieldnav.errors import OutputError
+from fieldnav.journal.files import write_atomically
 from fieldnav.messages import CameraName
+from fieldnav.settings.documents import written
 from fieldnav.settings.robot import Bus, Robot
 
 SOCKETCAND = "socketcand"
@@ -36,17 +33,6 @@ def reached_at(
 
 def write_robot_file(path: Path, robot: Robot) -> None:
     """Write the whole file or nothing, for its owner alone to read. Raises OutputError."""
-    text = HEADER + yaml.safe_dump(robot.model_dump(mode="json"), sort_keys=False, allow_unicode=True)
-    beside = None
-    try:
-        # Made with mode 0600: it says where the bus is, and whoever reaches that drives the robot.
-        number, beside = tempfile.mkstemp(prefix=f".{path.name}.", dir=path.parent)
-        with open(number, "w", encoding="utf-8") as file:
-            file.write(text)
-            file.flush()
-            os.fsync(file.fileno())
-        os.replace(beside, path)
-    except OSError as error:
-        if beside is not None:
-            Path(beside).unlink(missing_ok=True)
-        raise OutputError(f"{path}: cannot be written: {error.strerror}") from error
+    text = HEADER + written(robot.model_dump(mode="json"))
+    # For its owner alone: it says where the bus is, and whoever reaches that drives the robot.
+    write_atomically(path, text.encode())

@@ -42,7 +42,10 @@ def test_the_file_is_its_owners_alone_and_takes_the_place_of_an_older_one(tmp_pa
 def test_a_place_that_cannot_be_written_is_one_clear_line(tmp_path: Path) -> None:
     (tmp_path / "folder.yaml").mkdir()
 
-    for path, said in ((tmp_path / "no" / "r.yaml", "No such file"), (tmp_path / "folder.yaml", "directory")):
+    for path, said in (
+        (tmp_path / "no" / "r.yaml", "No such file"),
+        (tmp_path / "folder.yaml", "is a folder"),
+    ):
         with pytest.raises(OutputError, match=f"^{path}: cannot be written: .*{said}"):
             write_robot_file(path, load_robot("bonnbot"))
     assert [entry.name for entry in tmp_path.iterdir()] == ["folder.yaml"]

@@ -6,8 +6,14 @@ PIPED = " ! "
 """What stands between two elements of a GStreamer pipeline, and in no name of a device or a file."""
 HIDDEN = "***"
 CREDENTIALS, QUERY = re.compile(r"(?<=://)\S*@"), re.compile(r"(://[^\s?]*\?)[^\s\"']+")
-SECRET = re.compile(r"\b([\w-]*(?:pw|pass|password|token|secret))\s*=\s*(\"[^\"]*\"|\S+)", re.IGNORECASE)
+SECRET_NAME = r"[\w-]*(?:pw|pass|password|token|secret)"
+SECRET = re.compile(rf"\b({SECRET_NAME})\s*=\s*(\"[^\"]*\"|\S+)", re.IGNORECASE)
 """A property of an element of a pipeline: user-pw of rtspsrc is one."""
+
+
+def is_secret(key: str) -> bool:
+    """Whether a dotted key names what only its owner may read."""
+    return any(re.fullmatch(SECRET_NAME, part, re.IGNORECASE) for part in key.split("."))
 
 
 def shown(source: str) -> str:
