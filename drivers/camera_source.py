@@ -9,7 +9,7 @@ from threading import Lock
 
 import cv2
 
-from drivers.recorded_camera import PICTURES
+from drivers.picture_folder import PICTURES
 from drivers.shown_source import PIPED, shown
 from fieldnav.errors import DriverError
 from fieldnav.faults import FaultKind

@@ -48,3 +48,8 @@ def print_json(value: Mapping[str, Any] | Sequence[Any]) -> None:
 def print_error(line: str) -> None:
     """One plain line on standard error, whatever the terminal."""
     print(f"error: {' '.join(line.split())}", file=sys.stderr)
+
+
+def print_warning(line: str) -> None:
+    """The same, for what does not end a command."""
+    print(f"warning: {' '.join(line.split())}", file=sys.stderr)

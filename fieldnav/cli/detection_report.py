@@ -1,13 +1,13 @@
 """What was found in a picture, in words: an object for a program, a table for a person."""
 
-import sys
 from math import degrees
 from typing import Any
 
 import numpy as np
 
-from fieldnav.cli.console import out, table
+from fieldnav.cli.console import out, print_warning, table
 from fieldnav.cli.detection import Detection
+from fieldnav.cli.pictures import unlit
 from fieldnav.messages import Floats
 
 PIXEL_DIGITS, ANGLE_DIGITS, SCORE_DIGITS, MILLISECOND_DIGITS = 1, 2, 3, 1
@@ -65,7 +65,9 @@ def print_table(found: Detection) -> None:
 def warn(found: Detection) -> None:
     """Say on standard error when a picture cannot show what is looked for."""
     if not np.ptp(found.image, axis=-1).any():
-        print(f"warning: {found.path}: has no colour, by which plants are told from soil", file=sys.stderr)
+        print_warning(f"{found.path}: has no colour, by which plants are told from soil")
+    if unlit(found.image):
+        print_warning(f"{found.path}: {unlit(found.image)}")
 
 
 def counted(found: Detection) -> str:
