@@ -4,11 +4,14 @@ import os
 import signal
 import sys
 from io import TextIOWrapper
+from threading import Event
+from types import FrameType
 from typing import Annotated
 
 import typer
 
 from fieldnav import __version__
+from fieldnav.__main__ import ENDING, INTERRUPTED
 from fieldnav.cli.bench import bench
 from fieldnav.cli.check import check
 from fieldnav.cli.console import FAILED, print_error
@@ -23,8 +26,8 @@ from fieldnav.cli.run import run as drive
 from fieldnav.cli.simulate import simulate
 from fieldnav.errors import FieldnavError
 
-OK, INTERRUPTED = 0, 130
-"""Exit statuses: done; stopped by Ctrl-C, as shells have it (128 + SIGINT)."""
+OK = 0
+"""Exit status of what is done."""
 
 UsageError: type[Exception] = typer.BadParameter.__mro__[2]
 """What typer raises for a wrong option; its own name is private in some versions of typer."""
@@ -127,9 +130,35 @@ def _usage(error: Exception) -> str:
 
 
 def main() -> None:
+    """Run the command of this process's own arguments, and exit."""
     _fill_closed_streams()
     for stream in (sys.stdout, sys.stderr):
         if isinstance(stream, TextIOWrapper):  # a file's name may hold what the terminal cannot show
             stream.reconfigure(errors="backslashreplace")
-    signal.signal(signal.SIGTERM, signal.default_int_handler)  # a service that is stopped stops like Ctrl-C
-    sys.exit(run())
+    signalled = _raising_signals()
+    try:
+        status = run()
+    except (Exception, KeyboardInterrupt):  # a library may have made another error of the interruption
+        if not signalled.is_set():
+            raise
+        print_error("interrupted")
+        status = INTERRUPTED
+    finally:
+        for number in ENDING:  # what is left to do is the interpreter's, whose words nobody understands
+            if signal.getsignal(number) is not signal.SIG_IGN:
+                signal.signal(number, signal.SIG_DFL)
+    sys.exit(status)
+
+
+def _raising_signals() -> Event:
+    """Let every signal that ends a program do what Ctrl-C does; gives an event that the first one sets."""
+    signalled = Event()
+
+    def interrupt(number: int, frame: FrameType | None) -> None:
+        signalled.set()
+        raise KeyboardInterrupt
+
+    for number in ENDING:
+        if signal.getsignal(number) is not signal.SIG_IGN:
+            signal.signal(number, interrupt)
+    return signalled
