@@ -1,8 +1,10 @@
 """The command line: every command hangs here, and every error ends here as one line."""
 
+import logging
 import os
 import signal
 import sys
+import warnings
 from io import TextIOWrapper
 from threading import Event
 from types import FrameType
@@ -26,6 +28,8 @@ from fieldnav.cli.run import run as drive
 from fieldnav.cli.simulate import simulate
 from fieldnav.errors import FieldnavError
 
+QUIET = {"OPENCV_LOG_LEVEL": "SILENT", "OPENCV_FFMPEG_LOGLEVEL": "-8"}
+"""What OpenCV reads when it is loaded; -8 is FFmpeg's "quiet"."""
 OK = 0
 """Exit status of what is done."""
 
@@ -135,6 +139,7 @@ def main() -> None:
     for stream in (sys.stdout, sys.stderr):
         if isinstance(stream, TextIOWrapper):  # a file's name may hold what the terminal cannot show
             stream.reconfigure(errors="backslashreplace")
+    _quieten_libraries()
     signalled = _raising_signals()
     try:
         status = run()
@@ -148,6 +153,19 @@ def main() -> None:
             if signal.getsignal(number) is not signal.SIG_IGN:
                 signal.signal(number, signal.SIG_DFL)
     sys.exit(status)
+
+
+def _quieten_libraries() -> None:
+    """Keep other people's words off standard error: what a person should know, fieldnav says.
+
+    Matplotlib complains of a cache that it cannot write and of letters that its font has not, OpenCV and
+    FFmpeg of files. What the user has asked for by the environment or by -W is left as it is.
+    """
+    if not sys.warnoptions:
+        warnings.simplefilter("ignore")
+    logging.getLogger().addHandler(logging.NullHandler())
+    for name, level in QUIET.items():
+        os.environ.setdefault(name, level)
 
 
 def _raising_signals() -> Event:

@@ -1,13 +1,12 @@
 """`fieldnav count`: the rows that pass sideways in a folder of frames or a video."""
 
-import json
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Annotated
 
 import typer
 
 from fieldnav.cli.camera_option import RobotOption
-from fieldnav.cli.console import out, print_warning, table
+from fieldnav.cli.console import json_of, out, print_line, print_warning, table
 from fieldnav.cli.part_progress import watched
 from fieldnav.cli.picture_limit import limit_pictures
 from fieldnav.evaluation.benchmark import Progress
@@ -63,7 +62,7 @@ def count(
     seen = len(dark)
     result = counter.result(direction)
     if as_json:
-        print(json.dumps({"rows_crossed": result.rows_crossed, "frames": list(result.frames)}))
+        print(json_of({"rows_crossed": result.rows_crossed, "frames": list(result.frames)}))
     else:
         _print_table(frames, result, seen)
     if seen < (1 - MOST_MISSING) * source.expected:
@@ -116,7 +115,7 @@ def _print_table(source: str, result: "RowCount", seen: int) -> None:
     moved = f"{result.direction.value} counts up"
     net = result.rows_crossed
     rows, frames = "row" if abs(net) == 1 else "rows", "frame" if seen == 1 else "frames"
-    print(f"{source}: {net} {rows} crossed in {seen} {frames}, {moved}")
+    print_line(f"{source}: {net} {rows} crossed in {seen} {frames}, {moved}")
     columns = ("frame", "row", "robot moves", "count")
     lines, running = [], 0
     for passage in result.passages:

@@ -5,7 +5,7 @@ from typing import Any
 
 import numpy as np
 
-from fieldnav.cli.console import out, print_warning, table
+from fieldnav.cli.console import out, print_line, print_warning, table
 from fieldnav.cli.detection import Detection
 from fieldnav.cli.pictures import unlit
 from fieldnav.messages import Floats
@@ -53,10 +53,10 @@ def print_table(found: Detection) -> None:
         for number, row in enumerate(lines, start=1)
     ]
     size = f"{found.width_px}x{found.height_px}"
-    print(f"{found.path}: {counted(found)}, {size}, {found.milliseconds:.{MILLISECOND_DIGITS}f} ms")
-    print(camera_line(found))
+    print_line(f"{found.path}: {counted(found)}, {size}, {found.milliseconds:.{MILLISECOND_DIGITS}f} ms")
+    print_line(camera_line(found))
     if found.known.robot and found.known.crop:
-        print(f"looked for rows of {found.known.crop.name}, {found.known.crop.rows.spacing_m:g} m apart")
+        print_line(f"looked for rows of {found.known.crop.name}, {found.known.crop.rows.spacing_m:g} m apart")
     if rows:
         out().print(table("", columns, rows, right=columns))
     print()

@@ -5,6 +5,7 @@ from typing import Any
 from rich.text import Text
 
 from fieldnav.preflight.finding import Finding, Verdict
+from fieldnav.settings.one_line import one_line
 
 COLOURS = {Verdict.OK: "green", Verdict.WARNING: "yellow", Verdict.FAIL: "bold red"}
 VERDICT_WIDTH, CHECK_WIDTH = 9, 24
@@ -16,7 +17,7 @@ def line(finding: Finding) -> Text:
     advice = f"; {finding.advice}" if finding.advice else ""
     return Text.assemble(
         (f"{finding.verdict.value:{VERDICT_WIDTH}}", COLOURS[finding.verdict]),
-        f"{finding.check:{CHECK_WIDTH}}{finding.figure}{advice}",
+        one_line(f"{finding.check:{CHECK_WIDTH}}{finding.figure}{advice}"),
     )
 
 

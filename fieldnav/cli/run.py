@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from fieldnav.cli.console import out, print_error, print_json
+from fieldnav.cli.console import out, print_error, print_json, print_line
 from fieldnav.cli.findings import line
 from fieldnav.cli.simulate import STOPPED, SideOption
 from fieldnav.errors import SettingsError
@@ -85,7 +85,7 @@ def run(
         from fieldnav.cli.mission_report import report  # noqa: PLC0415
 
         out().print(report(directory, summary))
-        print(f"run directory: {directory.path}")
+        print_line(f"run directory: {directory.path}")
     return 0 if summary.completed else STOPPED
 
 

@@ -1,12 +1,12 @@
 """`fieldnav simulate --serve`: the simulated robot for another process to drive, until it is stopped."""
 
-import json
 import shlex
+import sys
 from collections.abc import Mapping
 from math import degrees
 from pathlib import Path
 
-from fieldnav.cli.console import out, table
+from fieldnav.cli.console import json_of, out, print_line, table
 from fieldnav.errors import SettingsError
 from fieldnav.inquiry.figure_words import against_truth
 from fieldnav.messages import CameraName, Side
@@ -41,11 +41,12 @@ def serve_robot(
     with ServedRobot(offer) as served:
         write_robot_file(robot_file, served.robot)
         with Interruption() as interruption:  # the world is between two steps when it ends
-            print(_offered(served, robot_file) if as_json else _invitation(offer, robot_file), flush=True)
+            print_line(_offered(served, robot_file) if as_json else _invitation(offer, robot_file))
+            sys.stdout.flush()
             served.serve(lambda: interruption.asked)
         account = served.account()
     if as_json:
-        print(json.dumps(_as_document(account), ensure_ascii=False))
+        print(json_of(_as_document(account)))
     else:
         out().print(table("", ("", ""), _as_rows(account)))
     return 0
@@ -62,7 +63,7 @@ def _offered(served: ServedRobot, robot_file: Path) -> str:
     """Where everything is, as one line of JSON."""
     cameras = {name.value: served.robot.cameras.get(name).source for name in CameraName}
     bus = served.robot.can.model_dump(mode="json")
-    return json.dumps({"can": bus, "cameras": cameras, "robot_file": str(robot_file)}, ensure_ascii=False)
+    return json_of({"can": bus, "cameras": cameras, "robot_file": str(robot_file)})
 
 
 def _as_document(account: Account) -> dict[str, object]:

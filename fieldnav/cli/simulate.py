@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from fieldnav.cli.console import out, print_json
+from fieldnav.cli.console import out, print_json, print_line, watching
 from fieldnav.messages import Side
 from fieldnav.mission.interruption import Interruption
 
@@ -120,13 +120,12 @@ def _drive_for_people(run: "Run", stopping: Callable[[], bool]) -> int:
     done = _drive_watched(run, stopping)
     reported(done.directory)
     out().print(report(done.directory, done.summary))
-    print(f"run directory: {done.directory.path}")
+    print_line(f"run directory: {done.directory.path}")
     return 0 if succeeded(done.summary) else STOPPED
 
 
 def _drive_watched(run: "Run", stopping: Callable[[], bool]) -> "Simulated":
     """Drive with one live line on the terminal; quiet where there is none."""
-    from rich.console import Console  # noqa: PLC0415
     from rich.live import Live  # noqa: PLC0415
     from rich.text import Text  # noqa: PLC0415
 
@@ -135,5 +134,5 @@ def _drive_watched(run: "Run", stopping: Callable[[], bool]) -> "Simulated":
 
     if not sys.stderr.isatty():
         return drive(run, stopping=stopping)
-    with Live(Text("setting up"), console=Console(stderr=True), auto_refresh=False, transient=True) as live:
+    with Live(Text("setting up"), console=watching(), auto_refresh=False, transient=True) as live:
         return drive(run, [LiveLine(live, run.lanes)], stopping)

@@ -5,6 +5,7 @@ from typing import Annotated
 
 import typer
 
+from fieldnav.cli.console import print_line
 from fieldnav.cli.log.options import RUNS, RunArgument, RunsOption
 from fieldnav.errors import SettingsError
 from fieldnav.journal.directory import find_run
@@ -31,4 +32,5 @@ def plot(
     directory = find_run(run, runs)
     path = out or directory.path / DEFAULT_NAME
     notes = write_plot(directory, path)
-    print(path, *notes, sep="\n")
+    for line in (str(path), *notes):
+        print_line(line)
