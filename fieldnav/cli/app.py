@@ -16,7 +16,7 @@ from fieldnav import __version__
 from fieldnav.__main__ import ENDING, INTERRUPTED
 from fieldnav.cli.bench import bench
 from fieldnav.cli.check import check
-from fieldnav.cli.console import FAILED, print_error
+from fieldnav.cli.console import FAILED, drop, print_error
 from fieldnav.cli.count import count
 from fieldnav.cli.ctl import ctl
 from fieldnav.cli.detect import detect
@@ -90,11 +90,11 @@ def run(arguments: list[str] | None = None) -> int:
         # The reader has gone, as `head` does; typer makes an exit of it when a command hears of it first.
         if isinstance(left, SystemExit) and not isinstance(left.__context__, BrokenPipeError):
             raise
-        _drop_output()
+        drop(sys.stdout)
         return OK
     except OSError as error:
         # A disk that is full while a command prints; whatever else is written says so where it is written.
-        _drop_output()
+        drop(sys.stdout)
         print_error(f"{error.filename or 'standard output'}: cannot be written: {error.strerror or error}")
         return FAILED
     except UsageError as error:
@@ -115,11 +115,6 @@ def _fill_closed_streams() -> None:
         sys.stdout = open(os.devnull, encoding="utf-8")  # noqa: SIM115 - whatever is printed fails
     if sys.stderr is None:
         sys.stderr = open(os.devnull, "w", encoding="utf-8")  # noqa: SIM115 - for as long as the process lives
-
-
-def _drop_output() -> None:
-    """Let go of standard output: what could not be written must not be tried again at exit."""
-    os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
 
 
 def _usage(error: Exception) -> str:
@@ -149,6 +144,10 @@ def main() -> None:
         print_error("interrupted")
         status = INTERRUPTED
     finally:
+        try:
+            sys.stdout.flush()
+        except OSError:  # what is the matter has been said
+            drop(sys.stdout)
         for number in ENDING:  # what is left to do is the interpreter's, whose words nobody understands
             if signal.getsignal(number) is not signal.SIG_IGN:
                 signal.signal(number, signal.SIG_DFL)

@@ -1,9 +1,10 @@
 """Where commands print: people read tables on standard output, errors go to standard error as plain lines."""
 
 import json
+import os
 import sys
 from collections.abc import Iterable, Mapping, Sequence
-from typing import Any
+from typing import Any, TextIO
 
 from rich.console import Console, ConsoleOptions, RenderableType
 from rich.segment import Segment
@@ -100,5 +101,14 @@ def print_warning(line: str) -> None:
     _tell("warning", line)
 
 
+def drop(stream: TextIO) -> None:
+    """Let go of a stream: what could not be written must not be tried again, not even at exit."""
+    os.dup2(os.open(os.devnull, os.O_WRONLY), stream.fileno())
+
+
 def _tell(kind: str, line: str) -> None:
-    print(f"{kind}: {one_line(' '.join(line.split()))}", file=sys.stderr)
+    """Say it where anybody listens; a command is none the worse for it where nobody does."""
+    try:
+        print(f"{kind}: {one_line(' '.join(line.split()))}", file=sys.stderr, flush=True)
+    except OSError:
+        drop(sys.stderr)

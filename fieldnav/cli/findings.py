@@ -1,9 +1,11 @@
 """Findings as they are shown: a line for a person, an object for a program."""
 
+import sys
 from typing import Any
 
 from rich.text import Text
 
+from fieldnav.cli.console import drop, out
 from fieldnav.preflight.finding import Finding, Verdict
 from fieldnav.settings.one_line import one_line
 
@@ -29,3 +31,11 @@ def document(finding: Finding) -> dict[str, Any]:
         "figure": finding.figure,
         "advice": finding.advice,
     }
+
+
+def print_finding(finding: Finding) -> None:
+    """Print the line; the checks go on, and a robot drives, where nobody reads it any more."""
+    try:
+        out().print(line(finding), soft_wrap=True)
+    except (OSError, SystemExit):  # the console makes an exit of a reader that has gone
+        drop(sys.stdout)

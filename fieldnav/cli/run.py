@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from fieldnav.cli.console import out, print_error, print_json, print_line
-from fieldnav.cli.findings import line
+from fieldnav.cli.findings import print_finding
 from fieldnav.cli.simulate import STOPPED, SideOption
 from fieldnav.errors import SettingsError
 from fieldnav.messages import Side
@@ -73,7 +73,7 @@ def run(
     known = _broken_off(resume, out_dir) if resume is not None else None
     order = replace(_order(robot, crop, lanes, side, known), dry_run=dry_run, once=once, confirm=asked)
     order = replace(order, record=record)
-    tell = (lambda finding: None) if as_json else (lambda finding: out().print(line(finding), soft_wrap=True))
+    tell = (lambda finding: None) if as_json else print_finding
     directory, summary = _drive(order, known, out_dir, tell, as_json)
     if summary is None or directory is None:
         return STOPPED
