@@ -62,9 +62,9 @@ def test_an_error_after_a_full_output_is_the_only_line() -> None:
 
 
 def test_where_no_home_can_be_written_no_library_complains(picture: Path, tmp_path: Path) -> None:
-    done = shell(
-        f"env HOME=/proc MPLCONFIGDIR=/proc/none {FIELDNAV} detect {picture} --json --overlay {tmp_path / 'overlays'}"
-    )
+    homeless = "env HOME=/proc MPLCONFIGDIR=/proc/none"
+
+    done = shell(f"{homeless} {FIELDNAV} detect {picture} --json --overlay {tmp_path / 'overlays'}")
 
     assert (done.returncode, done.stderr) == (0, "")
     assert (tmp_path / "overlays" / "field-rows.jpg").exists()
