@@ -1,6 +1,7 @@
 """A run that is told to stop: the wheels stand still, the journal says who stopped it, nothing is lost."""
 
 import os
+import pty
 import signal
 import subprocess
 import sys
@@ -17,6 +18,7 @@ from fieldnav.journal.journal import read
 
 LONGEST_S = 60.0
 """To start up and to draw a few frames on a busy machine; a bound, not an expectation."""
+SCREEN_BYTES = 65536
 LOOK_S = 0.05
 """Between two looks at what a process has done, which needs the processor, too."""
 MODULES, TRACKER_AND_TWO_JOBS = 4, 3
@@ -37,14 +39,26 @@ def fieldnav(*arguments: str, python: tuple[str, ...] = ()) -> subprocess.Popen[
     return subprocess.Popen(command, stderr=subprocess.PIPE, stdout=subprocess.PIPE)
 
 
-def driving(folder: Path) -> subprocess.Popen[bytes]:
-    """A simulated run that has begun to follow a lane."""
-    run = fieldnav("simulate", "demo", "--sketch", "--lanes", "1", "--length", "20", "--out", str(folder))
+def driving(folder: Path, terminal: tuple[int, int] | None = None) -> subprocess.Popen[bytes]:
+    """A simulated run that has begun to follow a lane; a terminal, its two ends, becomes its own."""
+    arguments = ["simulate", "demo", "--sketch", "--lanes", "1", "--length", "20", "--out", str(folder)]
+    if terminal is None:
+        run = fieldnav(*arguments)
+    else:
+        os.set_blocking(terminal[0], False)
+        there = ["bash", "-c", 'exec "$@" <"$0" >"$0" 2>"$0"', os.ttyname(terminal[1])]
+        command = [*there, sys.executable, "-m", "fieldnav", *arguments]
+        run = subprocess.Popen(
+            command, start_new_session=True
+        )  # its first terminal is then the one it hears of
     until = time.monotonic() + LONGEST_S
     while not any(b"Tracking" in path.read_bytes() for path in folder.glob("*/journal.jsonl")):
         assert time.monotonic() < until, "the run begins to follow"
         with pytest.raises(subprocess.TimeoutExpired):  # it goes on until it is told to stop
             run.wait(LOOK_S)
+        with suppress(BlockingIOError):
+            if terminal is not None:
+                os.read(terminal[0], SCREEN_BYTES)
     return run
 
 
@@ -60,7 +74,7 @@ def assert_ended_in_good_order(run: subprocess.Popen[bytes], runs: Path) -> Path
     return folder
 
 
-@pytest.mark.parametrize("stop", [signal.SIGINT, signal.SIGTERM, signal.SIGHUP])
+@pytest.mark.parametrize("stop", [signal.SIGTERM, signal.SIGHUP])
 def test_a_run_that_is_told_to_stop_leaves_its_wheels_at_zero(stop: signal.Signals, tmp_path: Path) -> None:
     run = driving(tmp_path)
     run.send_signal(stop)
@@ -98,6 +112,20 @@ def test_a_run_that_is_told_to_stop_again_and_again_leaves_its_wheels_at_zero(tm
     (folder,) = tmp_path.iterdir()
     assert last_drive_commands(folder / "can.log") == [0] * MODULES
     assert not list(folder.glob(".*"))
+
+
+def test_a_run_whose_terminal_is_closed_stops_in_good_order(tmp_path: Path) -> None:
+    terminal = pty.openpty()
+    run = driving(tmp_path, terminal)
+    for end in terminal:
+        os.close(end)
+
+    run.wait(LONGEST_S)
+
+    assert run.returncode == 130
+    (folder,) = tmp_path.iterdir()
+    assert read(folder / "journal.jsonl")[-1].reason == "interrupted by the operator"
+    assert (folder / "summary.json").exists()
 
 
 def test_a_run_that_is_killed_leaves_no_file_that_means_nothing(tmp_path: Path) -> None:

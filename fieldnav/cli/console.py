@@ -4,7 +4,7 @@ import json
 import os
 import sys
 from collections.abc import Iterable, Mapping, Sequence
-from typing import Any, TextIO
+from typing import IO, Any, TextIO, cast
 
 from rich.console import Console, ConsoleOptions, RenderableType
 from rich.segment import Segment
@@ -26,8 +26,8 @@ class SafeConsole(Console):
     Names and reasons come from files, which anybody may have written; in square brackets they are no markup.
     """
 
-    def __init__(self, width: int | None = None, stderr: bool = False) -> None:
-        super().__init__(width=width, stderr=stderr, highlight=False, markup=False, emoji=False)
+    def __init__(self, width: int | None = None, file: IO[str] | None = None) -> None:
+        super().__init__(width=width, file=file, highlight=False, markup=False, emoji=False)
 
     def render(self, renderable: RenderableType, options: ConsoleOptions | None = None) -> Iterable[Segment]:
         if isinstance(renderable, str):
@@ -53,9 +53,29 @@ def out() -> Console:
     return SafeConsole(None if sys.stdout.isatty() else PLAIN_WIDTH)
 
 
+class _StandardError:
+    """Standard error for what is shown on the way: nothing comes of it when its terminal is gone."""
+
+    def write(self, text: str) -> int:
+        try:
+            return sys.stderr.write(text)
+        except OSError:
+            drop(sys.stderr)
+            return len(text)
+
+    def flush(self) -> None:
+        try:
+            sys.stderr.flush()
+        except OSError:
+            drop(sys.stderr)
+
+    def __getattr__(self, name: str) -> Any:
+        return getattr(sys.stderr, name)
+
+
 def watching() -> Console:
-    """The console of what is shown while a command works, on standard error."""
-    return SafeConsole(stderr=True)
+    """The console of what is shown while a command works, on standard error; a robot drives on without it."""
+    return SafeConsole(file=cast(IO[str], _StandardError()))
 
 
 def table(
