@@ -10,7 +10,7 @@ from threading import Lock
 import cv2
 
 from drivers.picture_folder import PICTURES
-from drivers.shown_source import PIPED, shown
+from drivers.shown_source import PIPED, in_unicode, shown
 from fieldnav.errors import DriverError
 from fieldnav.faults import FaultKind
 
@@ -81,6 +81,8 @@ def quieten() -> None:
 
 def open_capture(source: str, kind: SourceKind) -> cv2.VideoCapture:
     """A device, a pipeline, a stream or a video, opened. Raises DriverError."""
+    if not in_unicode(source):
+        raise _unplugged(f"{shown(source)}: the name is no text, with which OpenCV opens nothing; rename it")
     match kind:
         case SourceKind.PIPELINE:
             if not cv2.videoio_registry.hasBackend(cv2.CAP_GSTREAMER):

@@ -9,6 +9,7 @@ import cv2
 import numpy as np
 
 from drivers.jpeg import BEGIN, decoded_jpeg
+from drivers.shown_source import in_unicode
 from fieldnav.errors import PictureError
 from fieldnav.messages import Image
 
@@ -35,6 +36,17 @@ def decoded_picture(content: bytes) -> Image:
     if SAID_OF_DAMAGE in b"".join(said).lower():
         raise PictureError(damaged=True)
     return np.asarray(image, dtype=np.uint8)
+
+
+def further_pictures(path: str) -> int:
+    """How many pictures a file holds behind the first, as animations do; 0 where nobody can tell."""
+    if not in_unicode(path):
+        return 0
+    with _overheard():
+        try:
+            return max(cv2.imcount(path) - 1, 0)
+        except cv2.error:
+            return 0
 
 
 @contextmanager

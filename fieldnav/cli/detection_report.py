@@ -5,6 +5,7 @@ from typing import Any
 
 import numpy as np
 
+from drivers.encoded_picture import further_pictures
 from fieldnav.cli.console import out, print_line, print_warning, table
 from fieldnav.cli.detection import Detection
 from fieldnav.cli.pictures import unlit
@@ -66,6 +67,8 @@ def warn(found: Detection) -> None:
     """Say on standard error when a picture cannot show what is looked for."""
     if not np.ptp(found.image, axis=-1).any():
         print_warning(f"{found.path}: has no colour, by which plants are told from soil")
+    if further := further_pictures(found.path):
+        print_warning(f"{found.path}: holds {further + 1} pictures, of which the first alone is looked at")
     if unlit(found.image):
         print_warning(f"{found.path}: {unlit(found.image)}")
 

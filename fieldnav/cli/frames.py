@@ -11,6 +11,7 @@ import numpy as np
 
 from drivers.motion_jpeg import Capture, checked
 from drivers.picture_folder import PICTURES, pictures_in
+from drivers.shown_source import in_unicode
 from fieldnav.cli.pictures import check_size, read_picture
 from fieldnav.errors import PictureError, SettingsError
 from fieldnav.messages import Image
@@ -71,6 +72,8 @@ def _of_video(source: str) -> Frames:
             pass
     except OSError as error:
         raise SettingsError(f"{source}: cannot be read: {error.strerror}") from error
+    if not in_unicode(source):
+        raise SettingsError(f"{source}: the name is no text, with which OpenCV opens no video; rename it")
     level = cv2.utils.logging.setLogLevel(cv2.utils.logging.LOG_LEVEL_SILENT)
     try:
         capture = cv2.VideoCapture(source)

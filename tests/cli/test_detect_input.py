@@ -155,3 +155,16 @@ def test_a_picture_of_10_bits_in_16_is_warned_of_as_nearly_black(
     said = capfd.readouterr().err
     assert said.startswith(warning) and said.endswith("; a robot goes by 10 to 245\n")
     assert len(said.splitlines()) == 1
+
+
+def test_the_further_pictures_of_a_file_are_said_to_be_left_out(
+    picture: Path, tmp_path: Path, capfd: pytest.CaptureFixture[str]
+) -> None:
+    several = tmp_path / "several.tif"
+    image = cv2.imread(str(picture))
+    cv2.imwritemulti(str(several), [image, image, image])
+
+    assert run(["detect", str(several), "--json"]) == 0
+
+    said = capfd.readouterr().err
+    assert said == f"warning: {several}: holds 3 pictures, of which the first alone is looked at\n"

@@ -73,3 +73,15 @@ def test_count_names_its_folder_on_one_line(named: Path) -> None:
     assert done.returncode == 0, done.stderr
     assert (done.stdout + done.stderr).replace("\n", "").isprintable()
     assert not any(line.startswith("error") for line in (done.stdout + done.stderr).splitlines())
+
+
+def test_a_video_whose_name_is_no_text_is_refused_before_opencv_breaks_down(tmp_path: Path) -> None:
+    Path(os.fsdecode(os.fsencode(tmp_path) + b"/\xff.avi")).write_bytes(b"RIFF")
+
+    done = called(b"count", b"\xff.avi", folder=tmp_path)
+
+    assert done.returncode == 2
+    assert (
+        done.stderr.startswith("error: \\udcff.avi: the name is no text")
+        and len(done.stderr.splitlines()) == 1
+    )

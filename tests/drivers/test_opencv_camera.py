@@ -117,6 +117,7 @@ def test_a_recording_of_another_size_is_refused_naming_both(folder: Path) -> Non
         ("nowhere", None, "nowhere: there is no such device, video, picture or folder"),
         ("/dev/video-none", None, "/dev/video-none: there is no such device"),
         ("broken.avi", b"no video", "broken.avi: cannot be opened as a camera or a video"),
+        ("\udcff.avi", b"RIFF", "the name is no text"),
         ("broken.png", b"no picture", "broken.png: is no whole picture"),
         ("63", None, "63: cannot be opened as a camera"),
         ("", b"", "holds no picture; allowed are .jpg"),
