@@ -9,10 +9,10 @@ from threading import Lock
 
 import cv2
 
-from drivers.recorded_camera import PICTURES
+from drivers.picture_folder import PICTURES
 from fieldnav.errors import DriverError
 from fieldnav.faults import FaultKind
-from fieldnav.settings.shown_source import PIPED, shown
+from fieldnav.settings.shown_source import PIPED, in_unicode, shown
 
 STREAMS = ("rtsp://", "rtsps://", "http://", "https://")
 OPENING_S, READING_S, MILLISECONDS = 5, 2, 1000
@@ -81,6 +81,8 @@ def quieten() -> None:
 
 def open_capture(source: str, kind: SourceKind) -> cv2.VideoCapture:
     """A device, a pipeline, a stream or a video, opened. Raises DriverError."""
+    if not in_unicode(source):
+        raise _unplugged(f"{shown(source)}: the name is no text, with which OpenCV opens nothing; rename it")
     match kind:
         case SourceKind.PIPELINE:
             if not cv2.videoio_registry.hasBackend(cv2.CAP_GSTREAMER):

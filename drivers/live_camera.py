@@ -10,7 +10,7 @@ import numpy as np
 
 from drivers.compression import compressed
 from drivers.recorded_camera import check_size
-from fieldnav.errors import DriverError
+from fieldnav.errors import DriverError, PictureError
 from fieldnav.faults import FaultKind, Trouble
 from fieldnav.messages import CameraName, Frame
 from fieldnav.settings.camera import CameraSettings
@@ -24,7 +24,7 @@ class Device(Protocol):
     """What a live camera needs of OpenCV's VideoCapture."""
 
     def read(self) -> tuple[bool, Any]:
-        """Wait for the next frame; whether there is one, and the frame."""
+        """Wait for the next frame; whether there is one, and the frame. Raises PictureError where damaged."""
         ...
 
     def release(self) -> None: ...
@@ -113,7 +113,11 @@ class LiveCamera:
         """Take frames until there are no more or the camera is closed, and give the device back."""
         try:
             while not self._closing.is_set():
-                whole, image = device.read()
+                try:
+                    whole, image = device.read()
+                except PictureError as error:
+                    self._pass_over(error)
+                    continue
                 if not whole:
                     raise DriverError(f"{self._source}: gives no more frames", FaultKind.CAMERA_UNPLUGGED)
                 self._take(image, self._clock())
@@ -121,6 +125,11 @@ class LiveCamera:
             self._fail(error)
         finally:
             device.release()
+
+    def _pass_over(self, error: PictureError) -> None:
+        """A damaged frame is none: said until the next whole one comes, which is as a rule at once."""
+        self._sequence += 1
+        self._newest = Trouble(FaultKind.CAMERA_UNPLUGGED, f"{self._source}: a frame {error}")
 
     def _take(self, image: Any, arrived_s: float) -> None:
         self._sequence += 1

@@ -8,6 +8,7 @@ import cv2
 
 from drivers.camera_source import SourceKind, kind_of, open_capture, quieten
 from drivers.live_camera import LiveCamera
+from drivers.motion_jpeg import Capture, checked
 from drivers.ports import Camera
 from drivers.recorded_camera import Folder, RecordedCamera, Still, Video
 from fieldnav.errors import DriverError
@@ -44,15 +45,19 @@ def _opened(
         case SourceKind.PICTURE:
             return RecordedCamera(name, settings, Still(Path(source)))
         case SourceKind.VIDEO:
-            return RecordedCamera(name, settings, Video(open_capture(source, kind)))
+            return RecordedCamera(name, settings, Video(checked(open_capture(source, kind)), source))
         case SourceKind.DEVICE:
             opener = partial(_tuned, source, kind, settings)
         case SourceKind.PIPELINE | SourceKind.STREAM:  # they say themselves what they give
-            opener = partial(open_capture, source, kind)
+            opener = partial(_streamed, source, kind)
     return LiveCamera(name, settings, opener, clock, quality=quality)
 
 
-def _tuned(source: str, kind: SourceKind, settings: CameraSettings) -> cv2.VideoCapture:
+def _streamed(source: str, kind: SourceKind) -> Capture:
+    return checked(open_capture(source, kind))
+
+
+def _tuned(source: str, kind: SourceKind, settings: CameraSettings) -> Capture:
     """Ask a device for the robot file's size and rate; what it makes of that shows in its frames."""
     capture = open_capture(source, kind)
     # Raw pictures of 1280x720 do not go through USB 2 at 15 a second.
@@ -61,4 +66,4 @@ def _tuned(source: str, kind: SourceKind, settings: CameraSettings) -> cv2.Video
     capture.set(cv2.CAP_PROP_FRAME_HEIGHT, settings.height_px)
     capture.set(cv2.CAP_PROP_FPS, settings.rate_hz)
     capture.set(cv2.CAP_PROP_BUFFERSIZE, 1)
-    return capture
+    return checked(capture)

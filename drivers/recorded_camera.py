@@ -3,17 +3,21 @@
 from pathlib import Path
 from typing import Protocol
 
-import cv2
 import numpy as np
 
-from fieldnav.errors import DriverError
+from drivers.encoded_picture import decoded_picture
+from drivers.motion_jpeg import Capture
+from drivers.picture_folder import PICTURES, pictures_in
+from fieldnav.errors import DriverError, PictureError, SettingsError
 from fieldnav.faults import FaultKind
 from fieldnav.messages import CameraName, Frame, Image
-from fieldnav.settings.camera import CameraSettings
+from fieldnav.settings.camera import LARGEST_SIDE_PX, CameraSettings
+from fieldnav.settings.regular_file import read_regular
 from fieldnav.settings.shown_source import shown
 
-PICTURES = (".jpg", ".jpeg", ".png", ".bmp", ".tif", ".tiff", ".webp")
 COLOURS = 3
+LARGEST_FILE_BYTES = 4 * LARGEST_SIDE_PX**2
+"""Of a picture; room for the largest one without compression and with an alpha channel."""
 ROUNDING = 1e-6  # of a frame: a time that is a frame's own must not fall short of it
 
 
@@ -70,10 +74,10 @@ class Still:
 
 
 class Folder:
-    """The pictures of a folder by their names' order."""
+    """The pictures of a folder, one after the other."""
 
     def __init__(self, path: Path) -> None:
-        self._paths = sorted(each for each in path.iterdir() if each.suffix.lower() in PICTURES)
+        self._paths = pictures_in(path)
         if not self._paths:
             said = f"{path}: holds no picture; allowed are {', '.join(PICTURES)}"
             raise DriverError(said, FaultKind.CAMERA_UNPLUGGED)
@@ -86,10 +90,10 @@ class Folder:
 
 
 class Video:
-    """The pictures of an opened video file."""
+    """The pictures of an opened video file; source: what messages call it."""
 
-    def __init__(self, capture: cv2.VideoCapture) -> None:
-        self._capture = capture
+    def __init__(self, capture: Capture, source: str) -> None:
+        self._capture, self._source = capture, source
         self._passed = -1
 
     def picture(self, index: int) -> Image | None:
@@ -97,7 +101,12 @@ class Video:
             if not self._capture.grab():
                 return None
             self._passed += 1
-        whole, image = self._capture.retrieve()
+        try:
+            whole, image = self._capture.retrieve()
+        except PictureError as error:
+            raise DriverError(
+                f"{self._source}: frame {index}: {error}", FaultKind.CAMERA_UNPLUGGED
+            ) from error
         return np.asarray(image, dtype=np.uint8) if whole else None
 
     def close(self) -> None:
@@ -107,12 +116,11 @@ class Video:
 def read_picture(path: Path) -> Image:
     """The picture in a file, shape (height, width, 3), blue green red. Raises DriverError."""
     try:
-        image = cv2.imread(str(path), cv2.IMREAD_COLOR)
-    except cv2.error:  # a head that claims more pixels than OpenCV allocates
-        image = None
-    if image is None:
-        raise DriverError(f"{path}: is no picture that can be read", FaultKind.CAMERA_UNPLUGGED)
-    return np.asarray(image, dtype=np.uint8)
+        return decoded_picture(read_regular(str(path), LARGEST_FILE_BYTES))
+    except SettingsError as error:
+        raise DriverError(str(error), FaultKind.CAMERA_UNPLUGGED) from error
+    except PictureError as error:
+        raise DriverError(f"{path}: {error}", FaultKind.CAMERA_UNPLUGGED) from error
 
 
 def check_size(image: Image, settings: CameraSettings) -> None:

@@ -21,3 +21,10 @@ class DriverError(FieldnavError):
 
 class OutputError(FieldnavError):
     """A run directory or a report cannot be written."""
+
+
+class PictureError(FieldnavError):
+    """Bytes are no picture, or a damaged one; whoever knows where they are from names it."""
+
+    def __init__(self, damaged: bool = False) -> None:
+        super().__init__("is no whole picture" + (": its data is damaged" if damaged else ""))

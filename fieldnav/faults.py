@@ -71,7 +71,7 @@ FAULTS: dict[FaultKind, Declared] = {
         Reaction.HOLD, "nearly all of the picture is saturated", "shade the lens, set the exposure"
     ),
     FaultKind.CAMERA_UNPLUGGED: Declared(
-        Reaction.HOLD, "the source cannot be opened or read; it is opened again", "plug it in"
+        Reaction.HOLD, "the source cannot be opened or read, or a frame is damaged", "plug it in"
     ),
     FaultKind.CAMERA_SLOW: Declared(
         Reaction.SLOW, "frames come at less than half of their rate", "more light, a faster port"

@@ -1,17 +1,22 @@
 """The command line: every command hangs here, and every error ends here as one line."""
 
+import logging
 import os
 import signal
 import sys
+import warnings
 from io import TextIOWrapper
+from threading import Event
+from types import FrameType
 from typing import Annotated
 
 import typer
 
 from fieldnav import __version__
+from fieldnav.__main__ import ENDING, INTERRUPTED
 from fieldnav.cli.bench import bench
 from fieldnav.cli.check import check
-from fieldnav.cli.console import FAILED, print_error
+from fieldnav.cli.console import FAILED, drop, print_error
 from fieldnav.cli.count import count
 from fieldnav.cli.ctl import ctl
 from fieldnav.cli.detect import detect
@@ -23,8 +28,10 @@ from fieldnav.cli.run import run as drive
 from fieldnav.cli.simulate import simulate
 from fieldnav.errors import FieldnavError
 
-OK, INTERRUPTED = 0, 130
-"""Exit statuses: done; stopped by Ctrl-C, as shells have it (128 + SIGINT)."""
+QUIET = {"OPENCV_LOG_LEVEL": "SILENT", "OPENCV_FFMPEG_LOGLEVEL": "-8"}
+"""What OpenCV reads when it is loaded; -8 is FFmpeg's "quiet"."""
+OK = 0
+"""Exit status of what is done."""
 
 UsageError: type[Exception] = typer.BadParameter.__mro__[2]
 """What typer raises for a wrong option; its own name is private in some versions of typer."""
@@ -83,11 +90,11 @@ def run(arguments: list[str] | None = None) -> int:
         # The reader has gone, as `head` does; typer makes an exit of it when a command hears of it first.
         if isinstance(left, SystemExit) and not isinstance(left.__context__, BrokenPipeError):
             raise
-        _drop_output()
+        drop(sys.stdout)
         return OK
     except OSError as error:
         # A disk that is full while a command prints; whatever else is written says so where it is written.
-        _drop_output()
+        drop(sys.stdout)
         print_error(f"{error.filename or 'standard output'}: cannot be written: {error.strerror or error}")
         return FAILED
     except UsageError as error:
@@ -110,11 +117,6 @@ def _fill_closed_streams() -> None:
         sys.stderr = open(os.devnull, "w", encoding="utf-8")  # noqa: SIM115 - for as long as the process lives
 
 
-def _drop_output() -> None:
-    """Let go of standard output: what could not be written must not be tried again at exit."""
-    os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
-
-
 def _usage(error: Exception) -> str:
     """A usage error and the way to the command's help; empty when that help has been shown already."""
     message = error.format_message() if hasattr(error, "format_message") else str(error)
@@ -127,9 +129,53 @@ def _usage(error: Exception) -> str:
 
 
 def main() -> None:
+    """Run the command of this process's own arguments, and exit."""
     _fill_closed_streams()
     for stream in (sys.stdout, sys.stderr):
         if isinstance(stream, TextIOWrapper):  # a file's name may hold what the terminal cannot show
             stream.reconfigure(errors="backslashreplace")
-    signal.signal(signal.SIGTERM, signal.default_int_handler)  # a service that is stopped stops like Ctrl-C
-    sys.exit(run())
+    _quieten_libraries()
+    signalled = _raising_signals()
+    try:
+        status = run()
+    except (Exception, KeyboardInterrupt):  # a library may have made another error of the interruption
+        if not signalled.is_set():
+            raise
+        print_error("interrupted")
+        status = INTERRUPTED
+    finally:
+        try:
+            sys.stdout.flush()
+        except OSError:  # what is the matter has been said
+            drop(sys.stdout)
+        for number in ENDING:  # what is left to do is the interpreter's, whose words nobody understands
+            if signal.getsignal(number) is not signal.SIG_IGN:
+                signal.signal(number, signal.SIG_DFL)
+    sys.exit(status)
+
+
+def _quieten_libraries() -> None:
+    """Keep other people's words off standard error: what a person should know, fieldnav says.
+
+    Matplotlib complains of a cache that it cannot write and of letters that its font has not, OpenCV and
+    FFmpeg of files. What the user has asked for by the environment or by -W is left as it is.
+    """
+    if not sys.warnoptions:
+        warnings.simplefilter("ignore")
+    logging.getLogger().addHandler(logging.NullHandler())
+    for name, level in QUIET.items():
+        os.environ.setdefault(name, level)
+
+
+def _raising_signals() -> Event:
+    """Let every signal that ends a program do what Ctrl-C does; gives an event that the first one sets."""
+    signalled = Event()
+
+    def interrupt(number: int, frame: FrameType | None) -> None:
+        signalled.set()
+        raise KeyboardInterrupt
+
+    for number in ENDING:
+        if signal.getsignal(number) is not signal.SIG_IGN:
+            signal.signal(number, interrupt)
+    return signalled

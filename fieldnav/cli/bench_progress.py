@@ -2,8 +2,9 @@
 
 from types import TracebackType
 
-from rich.console import Console
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, TaskID, TextColumn, TimeRemainingColumn
+
+from fieldnav.cli.console import watching
 
 
 class PartBars:
@@ -15,7 +16,7 @@ class PartBars:
             BarColumn(),
             MofNCompleteColumn(),
             TimeRemainingColumn(),
-            console=Console(stderr=True),
+            console=watching(),
             transient=True,
         )
         self._parts: dict[str, TaskID] = {}

@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from fieldnav.cli.console import FAILED, out, print_json
-from fieldnav.cli.findings import document, line
+from fieldnav.cli.console import FAILED, print_json
+from fieldnav.cli.findings import document, print_finding
 from fieldnav.cli.output_folder import output_path
 from fieldnav.cli.picture_limit import limit_pictures
 from fieldnav.errors import SettingsError
@@ -51,7 +51,7 @@ def check(
     for finding in _findings(robot, crop, out_dir):
         found.append(finding)
         if not as_json:
-            out().print(line(finding), soft_wrap=True)
+            print_finding(finding)
     failed = {finding.check for finding in found if finding.verdict is Verdict.FAIL}
     if as_json:
         print_json({"ok": not failed, "checks": [document(finding) for finding in found]})

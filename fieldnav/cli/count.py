@@ -1,13 +1,12 @@
 """`fieldnav count`: the rows that pass sideways in a folder of frames or a video."""
 
-import json
-import sys
+from collections.abc import Sequence
 from typing import TYPE_CHECKING, Annotated
 
 import typer
 
 from fieldnav.cli.camera_option import RobotOption
-from fieldnav.cli.console import out, table
+from fieldnav.cli.console import json_of, out, print_line, print_warning, table
 from fieldnav.cli.part_progress import watched
 from fieldnav.cli.picture_limit import limit_pictures
 from fieldnav.evaluation.benchmark import Progress
@@ -59,23 +58,30 @@ def count(
     profile = None if crop is None else load_crop(crop)
     camera = None if robot is None else load_robot(robot).cameras.front
     source = frames_of(frames)
-    counter, seen = _counted(source, profile, camera)
+    counter, dark = _counted(source, profile, camera)
+    seen = len(dark)
     result = counter.result(direction)
     if as_json:
-        print(json.dumps({"rows_crossed": result.rows_crossed, "frames": list(result.frames)}))
+        print(json_of({"rows_crossed": result.rows_crossed, "frames": list(result.frames)}))
     else:
         _print_table(frames, result, seen)
     if seen < (1 - MOST_MISSING) * source.expected:
-        _warn(f"{frames}: gave {seen} of its {source.expected} frames: it is cut or damaged")
+        print_warning(f"{frames}: gave {seen} of its {source.expected} frames: it is cut or damaged")
+    if any(dark):
+        known = "too dark or too bright for a robot to go by"
+        print_warning(f"{frames}: {known}: frames {_named([at for at, each in enumerate(dark) if each])}")
     if counter.unplaced:
         known = "show no ground known from the frames before, so taken as on the way"
-        _warn(f"{frames}: {known}: {_named(counter.unplaced)}")
+        print_warning(f"{frames}: {known}: {_named(counter.unplaced)}")
 
 
 def _counted(
     frames: "Frames", crop: "CropProfile | None", camera: "CameraSettings | None"
-) -> "tuple[RowCounter, int]":
-    """All frames taken in, and how many; with a progress bar on the terminal, quiet where there is none."""
+) -> "tuple[RowCounter, list[bool]]":
+    """All frames taken in, and of each whether it is too dark or too bright to go by.
+
+    With a progress bar on the terminal, quiet where there is none.
+    """
     with watched() as tell:
         return _taken_in(frames, crop, camera, tell)
 
@@ -85,29 +91,31 @@ def _taken_in(
     crop: "CropProfile | None",
     camera: "CameraSettings | None",
     tell: Progress,
-) -> "tuple[RowCounter, int]":
+) -> "tuple[RowCounter, list[bool]]":
+    from fieldnav.cli.pictures import unlit  # noqa: PLC0415 - the same
     from fieldnav.perception.counting.row_counter import RowCounter  # noqa: PLC0415 - loads OpenCV
     from fieldnav.settings.loading import revised  # noqa: PLC0415 - the same
 
     counter: RowCounter | None = None
-    seen = 0
-    for seen, (name, image) in enumerate(frames.images, start=1):
+    dark: list[bool] = []
+    for name, image in frames.images:
         if counter is None:
             height, width = image.shape[:2]
             size = {"width_px": width, "height_px": height}
             pinhole = None if camera is None else revised(camera, size, name).pinhole()
             counter = RowCounter(crop, pinhole)
         counter.add(image)
-        tell(PART, seen, max(frames.expected, seen))
+        dark.append(bool(unlit(image)))
+        tell(PART, len(dark), max(frames.expected, len(dark)))
     assert counter is not None, "a source without frames is refused where it is read"
-    return counter, seen
+    return counter, dark
 
 
 def _print_table(source: str, result: "RowCount", seen: int) -> None:
     moved = f"{result.direction.value} counts up"
     net = result.rows_crossed
     rows, frames = "row" if abs(net) == 1 else "rows", "frame" if seen == 1 else "frames"
-    print(f"{source}: {net} {rows} crossed in {seen} {frames}, {moved}")
+    print_line(f"{source}: {net} {rows} crossed in {seen} {frames}, {moved}")
     columns = ("frame", "row", "robot moves", "count")
     lines, running = [], 0
     for passage in result.passages:
@@ -117,9 +125,5 @@ def _print_table(source: str, result: "RowCount", seen: int) -> None:
         out().print(table("", columns, lines, right=("frame", "row", "count")))
 
 
-def _named(frames: tuple[int, ...]) -> str:
+def _named(frames: Sequence[int]) -> str:
     return ", ".join(map(str, frames[:SAID_AT_MOST])) + (", ..." if len(frames) > SAID_AT_MOST else "")
-
-
-def _warn(line: str) -> None:
-    print(f"warning: {line}", file=sys.stderr)

@@ -7,7 +7,7 @@ from typing import Annotated
 import typer
 from rich.table import Table
 
-from fieldnav.cli.console import out, print_error, print_json, table
+from fieldnav.cli.console import out, print_error, print_json, print_line, table
 from fieldnav.operator.caller import ask, running
 from fieldnav.operator.choosing import choose, driven_in
 from fieldnav.operator.request import Command
@@ -77,7 +77,7 @@ def _say(command: Command, run: str | None, runs: Path | None, as_json: bool) ->
     elif answer.status is not None:
         out().print(status_table(answer.status))
     else:
-        print(f"{path.stem}: {answer.said}")
+        print_line(f"{path.stem}: {answer.said}")
     return 0 if answer.ok else REFUSED
 
 

@@ -1,12 +1,12 @@
 """`fieldnav detect`: the crop rows of pictures, for a person, a program, or to look at."""
 
-import json
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 import typer
 
 from fieldnav.cli.camera_option import RobotOption
+from fieldnav.cli.console import json_of, print_line
 from fieldnav.cli.output_folder import output_path
 from fieldnav.cli.picture_limit import limit_pictures
 
@@ -61,14 +61,15 @@ def detect(
     for path in images:
         found = detection.detect_rows(path, known)
         if as_json:
-            print(json.dumps(detection_report.document(found), ensure_ascii=False), flush=True)
+            print(json_of(detection_report.document(found)), flush=True)
         else:
             detection_report.print_table(found)
         detection_report.warn(found)
         if path in overlays:
             _draw(found, overlays[path])
             if not as_json:
-                print(f"drawn in {overlays[path]}\n")
+                print_line(f"drawn in {overlays[path]}")
+                print()
 
 
 def _draw(found: "Detection", path: Path) -> None:

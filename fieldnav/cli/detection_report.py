@@ -1,13 +1,14 @@
 """What was found in a picture, in words: an object for a program, a table for a person."""
 
-import sys
 from math import degrees
 from typing import Any
 
 import numpy as np
 
-from fieldnav.cli.console import out, table
+from drivers.encoded_picture import further_pictures
+from fieldnav.cli.console import out, print_line, print_warning, table
 from fieldnav.cli.detection import Detection
+from fieldnav.cli.pictures import unlit
 from fieldnav.messages import Floats
 
 PIXEL_DIGITS, ANGLE_DIGITS, SCORE_DIGITS, MILLISECOND_DIGITS = 1, 2, 3, 1
@@ -53,10 +54,10 @@ def print_table(found: Detection) -> None:
         for number, row in enumerate(lines, start=1)
     ]
     size = f"{found.width_px}x{found.height_px}"
-    print(f"{found.path}: {counted(found)}, {size}, {found.milliseconds:.{MILLISECOND_DIGITS}f} ms")
-    print(camera_line(found))
+    print_line(f"{found.path}: {counted(found)}, {size}, {found.milliseconds:.{MILLISECOND_DIGITS}f} ms")
+    print_line(camera_line(found))
     if found.known.robot and found.known.crop:
-        print(f"looked for rows of {found.known.crop.name}, {found.known.crop.rows.spacing_m:g} m apart")
+        print_line(f"looked for rows of {found.known.crop.name}, {found.known.crop.rows.spacing_m:g} m apart")
     if rows:
         out().print(table("", columns, rows, right=columns))
     print()
@@ -65,7 +66,11 @@ def print_table(found: Detection) -> None:
 def warn(found: Detection) -> None:
     """Say on standard error when a picture cannot show what is looked for."""
     if not np.ptp(found.image, axis=-1).any():
-        print(f"warning: {found.path}: has no colour, by which plants are told from soil", file=sys.stderr)
+        print_warning(f"{found.path}: has no colour, by which plants are told from soil")
+    if further := further_pictures(found.path):
+        print_warning(f"{found.path}: holds {further + 1} pictures, of which the first alone is looked at")
+    if unlit(found.image):
+        print_warning(f"{found.path}: {unlit(found.image)}")
 
 
 def counted(found: Detection) -> str:

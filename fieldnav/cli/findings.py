@@ -1,10 +1,13 @@
 """Findings as they are shown: a line for a person, an object for a program."""
 
+import sys
 from typing import Any
 
 from rich.text import Text
 
+from fieldnav.cli.console import drop, out
 from fieldnav.preflight.finding import Finding, Verdict
+from fieldnav.settings.one_line import one_line
 
 COLOURS = {Verdict.OK: "green", Verdict.WARNING: "yellow", Verdict.FAIL: "bold red"}
 VERDICT_WIDTH, CHECK_WIDTH = 9, 24
@@ -16,7 +19,7 @@ def line(finding: Finding) -> Text:
     advice = f"; {finding.advice}" if finding.advice else ""
     return Text.assemble(
         (f"{finding.verdict.value:{VERDICT_WIDTH}}", COLOURS[finding.verdict]),
-        f"{finding.check:{CHECK_WIDTH}}{finding.figure}{advice}",
+        one_line(f"{finding.check:{CHECK_WIDTH}}{finding.figure}{advice}"),
     )
 
 
@@ -28,3 +31,11 @@ def document(finding: Finding) -> dict[str, Any]:
         "figure": finding.figure,
         "advice": finding.advice,
     }
+
+
+def print_finding(finding: Finding) -> None:
+    """Print the line; the checks go on, and a robot drives, where nobody reads it any more."""
+    try:
+        out().print(line(finding), soft_wrap=True)
+    except (OSError, SystemExit):  # the console makes an exit of a reader that has gone
+        drop(sys.stdout)

@@ -1,7 +1,6 @@
 """Frames given on the command line, one after the other: a folder of pictures, or a video."""
 
 import os
-import re
 import stat
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -10,10 +9,12 @@ from pathlib import Path
 import cv2
 import numpy as np
 
-from drivers.recorded_camera import PICTURES
+from drivers.motion_jpeg import Capture, checked
+from drivers.picture_folder import PICTURES, pictures_in
 from fieldnav.cli.pictures import check_size, read_picture
-from fieldnav.errors import SettingsError
+from fieldnav.errors import PictureError, SettingsError
 from fieldnav.messages import Image
+from fieldnav.settings.shown_source import in_unicode
 
 FFMPEG_LOG, SILENT = "OPENCV_FFMPEG_LOGLEVEL", "-8"
 """OpenCV reads this from the environment when it opens its first video."""
@@ -51,24 +52,12 @@ def frames_of(source: str) -> Frames:
 
 def _of_folder(source: str) -> Frames:
     try:
-        names = sorted(filter(_is_picture, os.listdir(source)), key=_in_order)
+        paths = [str(path) for path in pictures_in(Path(source))]
     except OSError as error:
         raise SettingsError(f"{source}: cannot be read: {error.strerror}") from error
-    if not names:
+    if not paths:
         raise SettingsError(f"{source}: holds no picture; allowed are {', '.join(PICTURES)}")
-    paths = [os.path.join(source, name) for name in names]
     return Frames(len(paths), _of_one_size((path, read_picture(path)) for path in paths))
-
-
-def _is_picture(name: str) -> bool:
-    """Whether a file is a picture by its name; a hidden one, as memory cards hold, is none."""
-    return Path(name).suffix.lower() in PICTURES and not name.startswith(".")
-
-
-def _in_order(name: str) -> tuple[list[tuple[str, int]], str]:
-    """What names are sorted by: 9.jpg comes before 10.jpg."""
-    parts = re.findall(r"([^0-9]*)([0-9]*)", name)
-    return [(text, int(number or -1)) for text, number in parts], name
 
 
 def quiet_videos() -> None:
@@ -83,6 +72,8 @@ def _of_video(source: str) -> Frames:
             pass
     except OSError as error:
         raise SettingsError(f"{source}: cannot be read: {error.strerror}") from error
+    if not in_unicode(source):
+        raise SettingsError(f"{source}: the name is no text, with which OpenCV opens no video; rename it")
     level = cv2.utils.logging.setLogLevel(cv2.utils.logging.LOG_LEVEL_SILENT)
     try:
         capture = cv2.VideoCapture(source)
@@ -91,17 +82,25 @@ def _of_video(source: str) -> Frames:
     if not capture.isOpened():
         raise SettingsError(f"{source}: is no video that can be read; {ALLOWED}")
     # A video's head need not tell the truth.
-    return Frames(max(int(capture.get(cv2.CAP_PROP_FRAME_COUNT)), 1), _of_one_size(_played(source, capture)))
+    return Frames(
+        max(int(capture.get(cv2.CAP_PROP_FRAME_COUNT)), 1), _of_one_size(_played(source, checked(capture)))
+    )
 
 
-def _played(source: str, capture: cv2.VideoCapture) -> Iterator[tuple[str, Image]]:
+def _played(source: str, capture: Capture) -> Iterator[tuple[str, Image]]:
     try:
         number = 0
-        while True:
-            whole, image = capture.read()
+        while capture.grab():
+            name = f"{source}: frame {number}"
+            try:
+                whole, image = capture.retrieve()
+            except PictureError as error:
+                if not capture.grab():  # the video is cut here
+                    break
+                raise SettingsError(f"{name}: {error}; {ALLOWED}") from error
             if not whole:
                 break
-            yield f"{source}: frame {number}", np.asarray(image, dtype=np.uint8)
+            yield name, np.asarray(image, dtype=np.uint8)
             number += 1
     finally:
         capture.release()

@@ -6,6 +6,7 @@ from rich.live import Live
 from rich.text import Text
 
 from fieldnav.mission.tick import Tick
+from fieldnav.settings.one_line import one_line
 from states.names import text
 
 REDRAW_S = 0.25
@@ -41,6 +42,6 @@ class LiveLine:
             f"lane {tick.lane}/{self._lanes}  rows {tick.rows}  {self._distance_m:6.1f} m  ",
             f"{abs(twist.vx_mps) + abs(twist.vy_mps):.2f} m/s  {tick.now_s:6.1f} s  ",
             pace,
-            (f"  {self._warning}", "yellow"),
+            (f"  {one_line(self._warning)}", "yellow"),
         )
         self._live.update(line, refresh=True)

@@ -8,6 +8,7 @@ from matplotlib.lines import Line2D
 from fieldnav.cli.detection import Detection
 from fieldnav.cli.detection_colours import INK, LANE, PLANT, SHADOW, edged, of_confidence
 from fieldnav.cli.detection_report import counted
+from fieldnav.settings.one_line import one_line
 
 FONT_SIZE, LINE_WIDTH, EDGE, BAND_WIDTH, DOT_SIZE = 9.5, 2.5, 4.5, 8.0, 5.0
 """Points."""
@@ -21,9 +22,11 @@ def write_caption(axes: Axes, found: Detection) -> None:
     """Write on axes that take the picture's whole width and have room for two lines."""
     axes.set_axis_off()
     said = (counted(found), _crop(found), _camera(found), f"found in {found.milliseconds:.0f} ms")
-    line = "   |   ".join(said)
+    line = one_line("   |   ".join(said))
     place = axes.transAxes
-    axes.text(INSET, FIRST_LINE, line, transform=place, va="center", color=INK, fontsize=FONT_SIZE)
+    axes.text(
+        INSET, FIRST_LINE, line, transform=place, va="center", color=INK, fontsize=FONT_SIZE, parse_math=False
+    )
     key = _key(found)
     if key:
         axes.legend(

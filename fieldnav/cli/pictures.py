@@ -5,20 +5,20 @@ from collections.abc import Sequence
 from pathlib import Path
 
 import cv2
-import numpy as np
 from pydantic import Field
 
+from drivers.encoded_picture import decoded_picture
+from drivers.recorded_camera import LARGEST_FILE_BYTES
 from fieldnav.cli.output_folder import make_writable
-from fieldnav.errors import SettingsError
+from fieldnav.errors import PictureError, SettingsError
 from fieldnav.journal.files import check_replaceable, write_atomically
 from fieldnav.messages import Image
+from fieldnav.perception.pose.picture_quality import BLACK, WHITE
 from fieldnav.settings.camera import LARGEST_SIDE_PX
 from fieldnav.settings.loading import revised
 from fieldnav.settings.model import Settings
 from fieldnav.settings.regular_file import read_regular
 
-LARGEST_FILE_BYTES = 4 * LARGEST_SIDE_PX**2
-"""Of a picture; room for the largest one without compression and with an alpha channel."""
 SMALLEST_WIDTH_PX, SMALLEST_HEIGHT_PX = 64, 48
 """The least that a robot's camera may have."""
 OVERLAY_SUFFIX = "-rows.jpg"
@@ -37,13 +37,12 @@ def read_picture(path: str) -> Image:
     """The picture in a file, shape (height, width, 3), blue green red. Raises SettingsError."""
     if not path:
         raise SettingsError("'': is no name that a file can have")
-    content = read_regular(path, LARGEST_FILE_BYTES)
-    image = _decoded(content) if content else None
-    if image is None:
+    try:
+        image = decoded_picture(read_regular(path, LARGEST_FILE_BYTES))
+    except PictureError as error:
         raise SettingsError(
-            f"{path}: is no whole picture; allowed is JPEG, PNG, TIFF, BMP or WebP of at most "
-            f"{LARGEST_SIDE_PX} px a side"
-        )
+            f"{path}: {error}; allowed is JPEG, PNG, TIFF, BMP or WebP of at most {LARGEST_SIDE_PX} px a side"
+        ) from error
     check_size(image, path)
     return image
 
@@ -53,16 +52,15 @@ def check_size(image: Image, name: str) -> None:
     revised(PictureSize(), {"width_px": image.shape[1], "height_px": image.shape[0]}, name)
 
 
-def _decoded(content: bytes) -> Image | None:
-    """The picture that the bytes hold, if they hold one; OpenCV's own words about it are kept quiet."""
-    level = cv2.utils.logging.setLogLevel(cv2.utils.logging.LOG_LEVEL_SILENT)
-    try:
-        image = cv2.imdecode(np.frombuffer(content, np.uint8), cv2.IMREAD_COLOR)
-    except cv2.error:  # a head that claims more pixels than OpenCV allocates
-        return None
-    finally:
-        cv2.utils.logging.setLogLevel(level)
-    return None if image is None else np.asarray(image, dtype=np.uint8)
+def unlit(image: Image) -> str:
+    """Why no robot would go by a picture so dark or so bright; empty for one that it would go by."""
+    brightness = float(image.mean())
+    if BLACK <= brightness <= WHITE:
+        return ""
+    colour = "black" if brightness < BLACK else "white"
+    return (
+        f"is nearly {colour}: brightness {brightness:.1f} of 255; a robot goes by {BLACK:.0f} to {WHITE:.0f}"
+    )
 
 
 def overlay_paths(images: Sequence[str], folder: Path) -> dict[str, Path]:

@@ -5,7 +5,7 @@ from typing import Annotated
 
 import typer
 
-from fieldnav.cli.console import FAILED, out, print_error, print_json
+from fieldnav.cli.console import FAILED, out, print_error, print_json, print_line
 from fieldnav.cli.profile_tables import profile_table
 from fieldnav.errors import SettingsError
 from fieldnav.settings.documents import parse_mapping, read_text, written
@@ -66,9 +66,9 @@ def show(
     if json:
         print_json(document)
         return
-    print(f"# {first.singular} {name}, every default filled in")
+    print_line(f"# {first.singular} {name}, every default filled in")
     for other in others:
-        print(
+        print_line(
             f"# A {other.singular} has this name too: fieldnav profiles show {name} --kind {other.singular}"
         )
     print(written(document), end="")
@@ -87,7 +87,7 @@ def validate(
         try:
             for each in _kinds_of(name, kind):
                 load(each, name)
-                print(f"{name}: a valid {each.singular}")
+                print_line(f"{name}: a valid {each.singular}")
         except SettingsError as error:
             failed = True
             print_error(str(error))

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from fieldnav.cli.console import out, print_json
+from fieldnav.cli.console import out, print_json, print_line
 from fieldnav.cli.picture_limit import limit_pictures
 from fieldnav.errors import SettingsError
 from fieldnav.messages import Direction, Side, Twist
@@ -85,7 +85,7 @@ def replay_foreign(source: str, asked: Foreign, as_json: bool) -> int:
         print_json(document(order, driven))
     else:
         out().print(report(order, driven))
-        print(f"run directory: {driven.directory.path}")
+        print_line(f"run directory: {driven.directory.path}")
     return NOT_LOOKED_AT if driven.left_out else 0
 
 

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 import cv2
 
-from drivers.recorded_camera import PICTURES
+from drivers.picture_folder import PICTURES
 from fieldnav.cli.frames import frames_of
 from fieldnav.cli.replay_foreign_options import FASTEST_HZ
 from fieldnav.errors import SettingsError

@@ -13,6 +13,7 @@ from fieldnav.inquiry.moment import clock
 from fieldnav.journal.journal import read
 from fieldnav.journal.summary import to_json
 from fieldnav.replay.foreign.ground_speed import as_assumed
+from fieldnav.settings.one_line import one_line
 
 if TYPE_CHECKING:
     from fieldnav.replay.foreign.drive import Driven
@@ -31,9 +32,9 @@ def report(order: "Order", driven: "Driven") -> RenderableType:
         f"{camera.frames} of {camera.counts.total} {name.value}" for name, camera in order.cameras.items()
     )
     head = f"{order.name}: {clock(driven.summary.duration_s)} replayed, frames: {frames}"
-    notes = [Text(said, style="yellow") for said in _notes(order, driven)]
+    notes = [Text(one_line(said), style="yellow") for said in _notes(order, driven)]
     return Group(
-        Text(head),
+        Text(one_line(head)),
         Text(_assumed(order)),
         *notes,
         transitions_table(read(driven.directory.journal), min(out().width, PLAIN_WIDTH)),

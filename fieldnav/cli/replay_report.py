@@ -7,9 +7,10 @@ from math import degrees
 from typing import TYPE_CHECKING
 
 from rich.console import Group, RenderableType
+from rich.markup import escape
 from rich.text import Text
 
-from fieldnav.cli.console import table
+from fieldnav.cli.console import table, watching
 from fieldnav.inquiry.moment import clock
 from fieldnav.settings.one_line import one_line
 
@@ -34,14 +35,21 @@ def report(done: "Replayed") -> RenderableType:
         parts.append(table("", COLUMNS, rows, right=("time", "lane")))
     else:
         parts.append(Text("every transition the same"))
-    parts += [Text(_commands(done)), *(Text(said, style="yellow") for said in done.incomplete)]
+    parts += [Text(_commands(done)), *(Text(one_line(said), style="yellow") for said in done.incomplete)]
     return Group(*parts)
 
 
 def _row(each: "Difference") -> tuple[str | Text, ...]:
     line = each.line
     lane = "" if line.lane is None else str(line.lane)
-    return clock(line.stamp_s), lane, line.event, line.source, line.target, Text(said(each), style="bold")
+    return (
+        clock(line.stamp_s),
+        lane,
+        line.event,
+        line.source,
+        line.target,
+        Text(one_line(said(each)), style="bold"),
+    )
 
 
 def said(each: "Difference") -> str:
@@ -71,9 +79,8 @@ def watched(title: str) -> Iterator["Tell | None"]:
     if not sys.stderr.isatty():
         yield None
         return
-    from rich.console import Console  # noqa: PLC0415 - only for a person who watches
-    from rich.progress import Progress  # noqa: PLC0415
+    from rich.progress import Progress  # noqa: PLC0415 - only for a person who watches
 
-    with Progress(console=Console(stderr=True), transient=True) as bar:
-        task = bar.add_task(title, total=None)
+    with Progress(console=watching(), transient=True) as bar:
+        task = bar.add_task(escape(one_line(title)), total=None)
         yield lambda now_s, end_s: bar.update(task, completed=now_s, total=end_s)

@@ -10,8 +10,8 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from fieldnav.cli.console import out, print_error, print_json
-from fieldnav.cli.findings import line
+from fieldnav.cli.console import out, print_error, print_json, print_line
+from fieldnav.cli.findings import print_finding
 from fieldnav.cli.output_folder import output_path
 from fieldnav.cli.simulate import STOPPED, SideOption
 from fieldnav.errors import SettingsError
@@ -77,7 +77,7 @@ def run(
     known = _broken_off(resume, out_dir) if resume is not None else None
     order = replace(_order(robot, crop, lanes, side, known), dry_run=dry_run, once=once, confirm=asked)
     order = replace(order, record=record)
-    tell = (lambda finding: None) if as_json else (lambda finding: out().print(line(finding), soft_wrap=True))
+    tell = (lambda finding: None) if as_json else print_finding
     directory, summary = _drive(order, known, out_dir, tell, as_json)
     if summary is None or directory is None:
         return STOPPED
@@ -89,7 +89,7 @@ def run(
         from fieldnav.cli.mission_report import report  # noqa: PLC0415
 
         out().print(report(directory, summary))
-        print(f"run directory: {directory.path}")
+        print_line(f"run directory: {directory.path}")
     return 0 if summary.completed else STOPPED
 
 

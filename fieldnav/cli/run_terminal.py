@@ -8,11 +8,13 @@ from rich.console import Console
 from rich.live import Live
 from rich.text import Text
 
+from fieldnav.cli.console import watching
 from fieldnav.cli.live_line import LiveLine
 from fieldnav.faults import FAULTS, FaultKind
 from fieldnav.mission.real import Watchers
 from fieldnav.mission.tick import Tick
 from fieldnav.operator.terminal import HELP, TerminalKeys
+from fieldnav.settings.one_line import one_line
 from states.names import Event, text
 
 INTERRUPTING = (Event.PAUSE, Event.FAIL, Event.LATCH)
@@ -35,7 +37,7 @@ class Announcer:
             return
         said = tick.reason or tick.change.event.value
         advice = next((FAULTS[kind].advice for kind in FaultKind if said.startswith(f"{kind.value}:")), "")
-        self._console.print(Text(f"{tick.now_s:.1f} s  {text(tick.state)}: {said}", "bold yellow"))
+        self._console.print(Text(one_line(f"{tick.now_s:.1f} s  {text(tick.state)}: {said}"), "bold yellow"))
         for what in filter(None, (advice, WHAT_NEXT[tick.change.event])):
             self._console.print(Text(f"  {what}"))
 
@@ -43,18 +45,18 @@ class Announcer:
 @contextmanager
 def terminal(lanes: int, quiet: bool) -> Iterator[Watchers]:
     """Who watches the run for the person at its terminal, and the keys; nobody where it is `quiet`."""
-    console = Console(stderr=True, highlight=False)
+    console = watching()
     with ExitStack() as stack:
         keys = stack.enter_context(TerminalKeys(lambda said: console.print(Text(said))))
         requests = (keys,) if keys.here else ()
         if quiet:
             yield Watchers((), requests)
             return
-        watching = [Announcer(console)]
+        observers = [Announcer(console)]
         if not sys.stderr.isatty():
-            yield Watchers(watching, requests)
+            yield Watchers(observers, requests)
             return
         if keys.here:
             console.print(Text(HELP, "dim"))
         live = stack.enter_context(Live(Text(""), console=console, auto_refresh=False, transient=True))
-        yield Watchers([*watching, LiveLine(live, lanes, simulated=False)], requests)
+        yield Watchers([*observers, LiveLine(live, lanes, simulated=False)], requests)

@@ -1,20 +1,17 @@
 """`fieldnav simulate --serve`: the simulated robot for another process to drive, until it is stopped."""
 
-import json
 import shlex
-import signal
-from collections.abc import Iterator, Mapping
-from contextlib import contextmanager
+import sys
+from collections.abc import Mapping
 from math import degrees
 from pathlib import Path
-from threading import Event
-from types import FrameType
 
-from fieldnav.cli.console import out, table
+from fieldnav.cli.console import json_of, out, print_line, table
 from fieldnav.errors import SettingsError
 from fieldnav.inquiry.figure_words import against_truth
 from fieldnav.journal.files import check_replaceable
 from fieldnav.messages import CameraName, Side
+from fieldnav.mission.interruption import Interruption
 from fieldnav.settings.field import FieldSettings
 from fieldnav.settings.kinds import is_path
 from fieldnav.settings.loading import load_crop, load_robot
@@ -33,7 +30,7 @@ def refuse(options: Mapping[str, bool]) -> None:
 def serve_robot(
     field: FieldSettings, robot: str, side: Side, port: int, sketch: bool, robot_file: Path, as_json: bool
 ) -> int:
-    """Serve until Ctrl-C or SIGTERM, then tell what the robot truly did; returns the exit status.
+    """Serve until a signal such as Ctrl-C, then tell what the robot truly did; returns the exit status.
 
     Raises FieldnavError for settings that do not fit, for ports that are taken, for an unwritable file.
     """
@@ -45,31 +42,16 @@ def serve_robot(
     offer = Offer(field, load_crop(field.crop), load_robot(robot), side, port, sketch)
     with ServedRobot(offer) as served:
         write_robot_file(robot_file, served.robot)
-        with _stopped_by_signals() as stopping:
-            print(_offered(served, robot_file) if as_json else _invitation(offer, robot_file), flush=True)
-            served.serve(stopping)
+        with Interruption() as interruption:  # the world is between two steps when it ends
+            print_line(_offered(served, robot_file) if as_json else _invitation(offer, robot_file))
+            sys.stdout.flush()
+            served.serve(lambda: interruption.asked)
         account = served.account()
     if as_json:
-        print(json.dumps(_as_document(account), ensure_ascii=False))
+        print(json_of(_as_document(account)))
     else:
         out().print(table("", ("", ""), _as_rows(account)))
     return 0
-
-
-@contextmanager
-def _stopped_by_signals() -> Iterator[Event]:
-    """An event that Ctrl-C and SIGTERM set: the world is between two steps when it ends."""
-    stopping = Event()
-
-    def stop(number: int, frame: FrameType | None) -> None:
-        stopping.set()
-
-    before = {number: signal.signal(number, stop) for number in (signal.SIGINT, signal.SIGTERM)}
-    try:
-        yield stopping
-    finally:
-        for number, handler in before.items():
-            signal.signal(number, handler)
 
 
 def _invitation(offer: Offer, robot_file: Path) -> str:
@@ -83,7 +65,7 @@ def _offered(served: ServedRobot, robot_file: Path) -> str:
     """Where everything is, as one line of JSON."""
     cameras = {name.value: served.robot.cameras.get(name).source for name in CameraName}
     bus = served.robot.can.model_dump(mode="json")
-    return json.dumps({"can": bus, "cameras": cameras, "robot_file": str(robot_file)}, ensure_ascii=False)
+    return json_of({"can": bus, "cameras": cameras, "robot_file": str(robot_file)})
 
 
 def _as_document(account: Account) -> dict[str, object]:

@@ -2,6 +2,7 @@
 
 import json
 import sys
+from collections.abc import Callable
 from dataclasses import replace
 from enum import Enum
 from pathlib import Path
@@ -9,9 +10,10 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from fieldnav.cli.console import out, print_json
+from fieldnav.cli.console import out, print_json, print_line, watching
 from fieldnav.cli.output_folder import output_path
 from fieldnav.messages import Side
+from fieldnav.mission.interruption import Interruption
 
 if TYPE_CHECKING:
     from fieldnav.mission.simulated import Run, Simulated
@@ -82,7 +84,9 @@ def simulate(
     run = replace(
         _run(settings, robot, Side(side.value), out_dir, video, realtime), sketch=sketch, record=record
     )
-    return _drive_for_programs(run) if as_json else _drive_for_people(run)
+    with Interruption() as interruption:
+        drive = _drive_for_programs if as_json else _drive_for_people
+        return drive(run, lambda: interruption.asked)
 
 
 def _field(name: str, given: "dict[str, str | float | None]") -> "FieldSettings":
@@ -104,32 +108,31 @@ def _run(field: "FieldSettings", robot: str, side: Side, parent: Path, video: bo
     return Run(field, crop, load_robot(robot), field.lanes, side, parent, video, realtime)
 
 
-def _drive_for_programs(run: "Run") -> int:
+def _drive_for_programs(run: "Run", stopping: Callable[[], bool]) -> int:
     """Drive and print the figures as JSON; returns the exit status."""
     from fieldnav.cli.mission_report import reported, succeeded  # noqa: PLC0415 - see _run
     from fieldnav.journal.summary import to_json  # noqa: PLC0415
     from fieldnav.mission.simulated import simulate as drive  # noqa: PLC0415
 
-    done = drive(run)
+    done = drive(run, stopping=stopping)
     reported(done.directory)
     print_json({"run": str(done.directory.path), **json.loads(to_json(done.summary))})
     return 0 if succeeded(done.summary) else STOPPED
 
 
-def _drive_for_people(run: "Run") -> int:
+def _drive_for_people(run: "Run", stopping: Callable[[], bool]) -> int:
     """Drive and print a table; returns the exit status."""
     from fieldnav.cli.mission_report import report, reported, succeeded  # noqa: PLC0415 - see _run
 
-    done = _drive_watched(run)
+    done = _drive_watched(run, stopping)
     reported(done.directory)
     out().print(report(done.directory, done.summary))
-    print(f"run directory: {done.directory.path}")
+    print_line(f"run directory: {done.directory.path}")
     return 0 if succeeded(done.summary) else STOPPED
 
 
-def _drive_watched(run: "Run") -> "Simulated":
+def _drive_watched(run: "Run", stopping: Callable[[], bool]) -> "Simulated":
     """Drive with one live line on the terminal; quiet where there is none."""
-    from rich.console import Console  # noqa: PLC0415
     from rich.live import Live  # noqa: PLC0415
     from rich.text import Text  # noqa: PLC0415
 
@@ -137,6 +140,6 @@ def _drive_watched(run: "Run") -> "Simulated":
     from fieldnav.mission.simulated import simulate as drive  # noqa: PLC0415
 
     if not sys.stderr.isatty():
-        return drive(run)
-    with Live(Text("setting up"), console=Console(stderr=True), auto_refresh=False, transient=True) as live:
-        return drive(run, [LiveLine(live, run.lanes)])
+        return drive(run, stopping=stopping)
+    with Live(Text("setting up"), console=watching(), auto_refresh=False, transient=True) as live:
+        return drive(run, [LiveLine(live, run.lanes)], stopping)

@@ -12,6 +12,9 @@ from typing import Generic, TypeVar
 
 from fieldnav.evaluation.benchmark import Progress
 
+OF_A_TERMINAL = (signal.SIGINT, signal.SIGQUIT, signal.SIGHUP)
+"""Signals that reach all of its processes at once."""
+
 Job = TypeVar("Job")
 Result = TypeVar("Result")
 
@@ -65,7 +68,8 @@ def _run(
     if not jobs:
         return
     with _pool(min(processes, len(jobs))) as pool:
-        waiting = {pool.submit(_once, work, job): index for index, job in jobs.items()}
+        with _signals_held_back():
+            waiting = {pool.submit(_once, work, job): index for index, job in jobs.items()}
         for done in as_completed(waiting):
             error = done.exception()
             job = jobs[waiting[done]]
@@ -101,6 +105,17 @@ def _pool(processes: int) -> Iterator[ProcessPoolExecutor]:
         pool.shutdown(cancel_futures=True)
 
 
+@contextmanager
+def _signals_held_back() -> Iterator[None]:
+    """Those of a terminal come later, also to a process that is started here and does not ignore them yet."""
+    before = signal.pthread_sigmask(signal.SIG_BLOCK, OF_A_TERMINAL)
+    try:
+        yield
+    finally:
+        signal.pthread_sigmask(signal.SIG_SETMASK, before)
+
+
 def _leave_interruptions_to_the_parent() -> None:
     """Ctrl-C reaches every process of a terminal; the one that was started by it ends the rest."""
-    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    for number in OF_A_TERMINAL:
+        signal.signal(number, signal.SIG_IGN)

@@ -2,6 +2,7 @@
 
 import os
 import shutil
+from collections.abc import Callable
 from datetime import datetime
 from io import FileIO
 from pathlib import Path
@@ -24,15 +25,15 @@ class MovableJournal(Journal):
 
     def fill_disk(self) -> None:
         """From now on there is only the room that the journal keeps for its last words."""
-        self._file = FullDisk(self._file, lambda: not self._reserve.exists())  # type: ignore[assignment]
+        self._file = FullDisk(self._file, self.has_given_up)  # type: ignore[assignment]
 
     @property
     def sequence(self) -> int:
         return self._sequence
 
-    @property
-    def reserve(self) -> Path:
-        return self._reserve
+    def has_given_up(self) -> bool:
+        """Whether the room for its last words is free for them."""
+        return self._reserve.closed
 
 
 class MovableLedger(Ledger):
@@ -48,8 +49,8 @@ class MovableLedger(Ledger):
         shutil.copy(self._path, path)
         super().__init__(path)
 
-    def fill_disk(self, reserve: Path) -> None:
-        self._file = FullDisk(self._file, lambda: not reserve.exists())  # type: ignore[assignment]
+    def fill_disk(self, given_up: Callable[[], bool]) -> None:
+        self._file = FullDisk(self._file, given_up)  # type: ignore[assignment]
 
 
 class PaperTrail:
@@ -68,7 +69,7 @@ class PaperTrail:
 
     def fill_disk(self) -> None:
         self.journal.fill_disk()
-        self.ledger.fill_disk(self.journal.reserve)
+        self.ledger.fill_disk(self.journal.has_given_up)
 
     @property
     def sequence(self) -> int:

@@ -7,6 +7,7 @@ from contextlib import suppress
 from datetime import datetime
 from functools import partial
 from pathlib import Path
+from tempfile import TemporaryFile
 from types import TracebackType
 from typing import Any, Self
 
@@ -24,7 +25,8 @@ RESERVE_BYTES = 65536
 class Journal:
     """Appends entries to a file; an existing journal is continued after its last whole line.
 
-    Some room is kept beside it: once the disk is full that is given up, for the line that says so.
+    Some room is kept on its disk: once that is full the room is given up, for the line that says so. It is a
+    file without a name, which no process that is killed leaves behind.
     Raises OutputError when the file cannot be written.
     """
 
@@ -35,12 +37,11 @@ class Journal:
         self._heard = heard
         self._path = path
         self._start_utc = start_utc
-        self._reserve = path.with_name(f".{path.name}.reserve")
         try:
             self._sequence = _repair(path)
             self._file = open(path, "ab", buffering=0, opener=private)  # noqa: SIM115 - closed by close
-            with open(self._reserve, "wb", opener=private) as reserve:
-                reserve.write(bytes(RESERVE_BYTES))
+            self._reserve = TemporaryFile(buffering=0, dir=path.parent)  # noqa: SIM115 - until it is given up
+            self._reserve.write(bytes(RESERVE_BYTES))
             _sync_folder(path.parent)
         except OSError as error:
             raise unwritable(path, error) from error
@@ -56,7 +57,7 @@ class Journal:
             failed = unwritable(self._path, error)
             reason = str(Trouble(FaultKind.DISK_FULL, str(failed)))
             with suppress(OSError):
-                self._reserve.unlink(missing_ok=True)
+                self._reserve.close()
                 self._append(
                     Entry(entry.stamp_s, FaultKind.DISK_FULL.value, entry.source, entry.source, reason=reason)
                 )
@@ -73,7 +74,7 @@ class Journal:
 
     def close(self) -> None:
         self._file.close()
-        self._reserve.unlink(missing_ok=True)
+        self._reserve.close()
 
     def __enter__(self) -> Self:
         return self

@@ -15,6 +15,7 @@ from matplotlib.lines import Line2D
 from fieldnav.journal.files import whole_file
 from fieldnav.journal.phases import INK, OTHER, PHASE_COLOURS, phase_of
 from fieldnav.messages import Floats
+from fieldnav.settings.one_line import one_line
 
 SOIL, ROW, LANE = "#f6f2ea", "#a9cf9b", "#7fae72"
 LONGEST_SHAPE = 9
@@ -57,7 +58,13 @@ def draw_map(path: Path, run: RunMap) -> None:
     _mark(axes, run)
     _legend(figure, shown, run)
     axes.set_title(
-        run.title, loc="left", fontsize=13, fontweight="bold", color=INK, pad=24 if run.figures else 8
+        one_line(run.title),
+        parse_math=False,
+        loc="left",
+        fontsize=13,
+        fontweight="bold",
+        color=INK,
+        pad=24 if run.figures else 8,
     )
     axes.text(0, 1.0, run.figures, transform=axes.transAxes, fontsize=9.5, color=INK, va="bottom")
     with whole_file(path) as beside:

@@ -1,7 +1,7 @@
 """The composition root of a simulated run: the same mission as on a robot, on a simulated field and bus."""
 
 import time
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from contextlib import ExitStack, suppress
 from dataclasses import dataclass
 from datetime import UTC, datetime
@@ -76,10 +76,13 @@ class Simulated:
     driven: PathObserver
 
 
-def simulate(run: Run, observers: Sequence[Observer] = ()) -> Simulated:
-    """Drive the mission to its end.
+def simulate(
+    run: Run, observers: Sequence[Observer] = (), stopping: Callable[[], bool] = lambda: False
+) -> Simulated:
+    """Drive the mission to its end, or until `stopping` says so, which is asked between two rounds.
 
-    Raises FieldnavError for settings that do not fit, an unwritable folder, or a mission that does not end.
+    Raises FieldnavError for settings that do not fit, an unwritable folder, or a mission that does not end;
+    KeyboardInterrupt where it was stopped, with everything written down.
     """
     check_fit(run.crop, run.robot, run.field.lane_pitch_m)
     check_nodes(run.robot)
@@ -117,7 +120,7 @@ def simulate(run: Run, observers: Sequence[Observer] = ()) -> Simulated:
         mission = Mission(run.robot, task, cameras, wheels, journal, watching, ledger)
         started = time.perf_counter()
         try:
-            _drive(mission, Operating(mission, tape), bus, world, run, started)
+            _drive(mission, Operating(mission, tape), bus, world, run, started, stopping)
         finally:
             _come_to_rest(wheels, world)
             wall_s = time.perf_counter() - started
@@ -139,9 +142,15 @@ def _come_to_rest(wheels: ThorvaldWheels, world: World) -> None:
 
 
 def _drive(
-    mission: Mission, operating: Operating, bus: LoggedBus, world: World, run: Run, started: float
+    mission: Mission,
+    operating: Operating,
+    bus: LoggedBus,
+    world: World,
+    run: Run,
+    started: float,
+    stopping: Callable[[], bool],
 ) -> None:
-    """Tick until the mission is over; in real time no faster than the clock."""
+    """Tick until the mission is over; in real time no faster than the clock. Raises KeyboardInterrupt."""
     limit_s = run.lanes * (run.field.length_m / (SLOWEST * run.crop.speeds.follow_mps) + SWITCH_S)
     operating.start(0.0)
     ticks = 0
@@ -150,6 +159,8 @@ def _drive(
         now_s = ticks * TICK_S
         try:
             world.advance(now_s)
+            if stopping():
+                raise KeyboardInterrupt
             operating.tick(now_s)
         except KeyboardInterrupt:
             operating.break_off(now_s, Event.FAIL, "interrupted by the operator")

@@ -3,7 +3,7 @@
 from collections.abc import Iterator, Mapping
 from pathlib import Path
 
-from drivers.recorded_camera import PICTURES
+from drivers.picture_folder import PICTURES
 from fieldnav.messages import CameraName, Frame
 from fieldnav.perception.pose.picture_quality import BLACK, WHITE, difference, quality, same
 from fieldnav.preflight.finding import Finding, Verdict

@@ -22,6 +22,7 @@ from fieldnav.report.material import Material, Problems, gather, open_recording
 from fieldnav.report.scale import minutes
 from fieldnav.report.spans import Span, seconds_by_phase
 from fieldnav.report.stops import Kind, Stop
+from fieldnav.settings.one_line import one_line
 
 WIDTH_INCH, STRIP_INCH, PANEL_INCH, FRAME_INCH, DOTS_PER_INCH = 13.0, 0.34, 1.25, 1.3, 120
 SALT = "fieldnav"
@@ -117,7 +118,7 @@ def _mark(axes: Axes, stops: Sequence[Stop]) -> None:
 
 def _head(figure: Figure, material: Material, spans: Sequence[Span]) -> None:
     ended = overview(material.directory)
-    title = f"{ended.run}: {ended.outcome.value}"
+    title = one_line(f"{ended.run}: {ended.outcome.value}")
     figure.suptitle(title, x=0.01, ha="left", fontsize=12.5, weight="bold", color=INK, parse_math=False)
     if not material.recorded:
         figure.text(0.99, 0.99, WITHOUT_RECORDING, ha="right", va="top", fontsize=10, color=INK)

@@ -20,3 +20,12 @@ def shown(source: str) -> str:
     """The source; of a URL neither user and password nor the query, of a pipeline no secret property."""
     source = QUERY.sub(rf"\g<1>{HIDDEN}", CREDENTIALS.sub(f"{HIDDEN}@", source))
     return SECRET.sub(rf"\g<1>={HIDDEN}", source) if PIPED in source else source
+
+
+def in_unicode(name: str) -> bool:
+    """Whether a file's name is text; OpenCV ends the process at one that is bytes in no encoding."""
+    try:
+        name.encode()
+    except UnicodeEncodeError:
+        return False
+    return True

@@ -106,3 +106,27 @@ def test_an_empty_name_is_shown_as_one(error: Callable[[], str]) -> None:
     assert run(["count", ""]) == 2
 
     assert error().startswith("error: '': is no name that a folder or a video can have; allowed is")
+
+
+def test_a_damaged_frame_in_a_video_is_named(tmp_path: Path, capfd: pytest.CaptureFixture[str]) -> None:
+    video = write_video(tmp_path / "hole.avi")
+    content = video.read_bytes()
+    middle = len(content) // 2
+    video.write_bytes(content[:middle] + bytes(500) + content[middle + 500 :])
+
+    assert run(["count", str(video)]) == 2
+
+    said = capfd.readouterr().err
+    assert said.startswith(f"error: {video}: frame ") and len(said.splitlines()) == 1
+    assert ": is no whole picture: its data is damaged; allowed is" in said
+
+
+def test_frames_that_are_nearly_black_are_warned_of(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    for number in range(3):
+        write_picture(tmp_path / f"{number}.png", 100 if number == 1 else 3)
+
+    assert run(["count", str(tmp_path)]) == 0
+
+    assert "too dark or too bright for a robot to go by: frames 0, 2\n" in capsys.readouterr().err

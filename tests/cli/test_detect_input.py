@@ -115,3 +115,56 @@ def test_a_reader_that_has_seen_enough_hears_nothing_more(picture: Path) -> None
         said = running.stderr.read()
 
     assert said == ""
+
+
+def test_a_damaged_picture_is_refused_in_one_line_of_our_own(
+    picture: Path, tmp_path: Path, capfd: pytest.CaptureFixture[str]
+) -> None:
+    jpeg = tmp_path / "hole.jpg"
+    content = cv2.imencode(".jpg", cv2.imread(str(picture)))[1].tobytes()
+    middle = len(content) // 2
+    jpeg.write_bytes(content[:middle] + bytes(2000) + content[middle + 2000 :])
+
+    assert run(["detect", str(picture), str(jpeg)]) == 2
+
+    said = capfd.readouterr()
+    assert said.out == "" and len(said.err.splitlines()) == 1
+    assert said.err.startswith(f"error: {jpeg}: is no whole picture: its data is damaged; allowed is JPEG")
+
+
+def test_a_cut_picture_is_refused_without_a_word_of_libpng(
+    picture: Path, capfd: pytest.CaptureFixture[str]
+) -> None:
+    picture.write_bytes(picture.read_bytes()[: picture.stat().st_size // 2])
+
+    assert run(["detect", str(picture)]) == 2
+
+    said = capfd.readouterr().err
+    assert said.startswith(f"error: {picture}: is no whole picture; ") and len(said.splitlines()) == 1
+
+
+def test_a_picture_of_10_bits_in_16_is_warned_of_as_nearly_black(
+    picture: Path, tmp_path: Path, capfd: pytest.CaptureFixture[str]
+) -> None:
+    dark = tmp_path / "dark.tif"
+    cv2.imwrite(str(dark), cv2.imread(str(picture)).astype(np.uint16) * 4)
+
+    assert run(["detect", str(dark), "--json"]) == 0
+
+    warning = f"warning: {dark}: is nearly black: brightness 1."
+    said = capfd.readouterr().err
+    assert said.startswith(warning) and said.endswith("; a robot goes by 10 to 245\n")
+    assert len(said.splitlines()) == 1
+
+
+def test_the_further_pictures_of_a_file_are_said_to_be_left_out(
+    picture: Path, tmp_path: Path, capfd: pytest.CaptureFixture[str]
+) -> None:
+    several = tmp_path / "several.tif"
+    image = cv2.imread(str(picture))
+    cv2.imwritemulti(str(several), [image, image, image])
+
+    assert run(["detect", str(several), "--json"]) == 0
+
+    said = capfd.readouterr().err
+    assert said == f"warning: {several}: holds 3 pictures, of which the first alone is looked at\n"

@@ -23,6 +23,8 @@ from fieldnav.settings.loading import load_robot
 
 WIDTH_PX, HEIGHT_PX, BRIGHTEST = 64, 48, 200
 FRAME_S, PATIENCE_S = 0.02, 20.0
+CUT_BYTES, END = 10, b"\xff\xd9"
+"""Lost at the end of a damaged frame, of what two dozen bytes hold the pixels; and how each JPEG ends."""
 HEAD = b"--frame\r\nContent-Type: image/jpeg\r\nContent-Length: %d\r\n\r\n%s\r\n"
 
 
@@ -31,7 +33,7 @@ class Server(ThreadingHTTPServer):
 
     def __init__(self, port: int = 0) -> None:
         super().__init__(("127.0.0.1", port), Streaming)
-        self.level, self.stopping, self.hanging = 0, Event(), Event()
+        self.level, self.stopping, self.hanging, self.damaging = 0, Event(), Event(), Event()
         self._thread = Thread(target=self.serve_forever, args=(FRAME_S,))
         self._thread.start()
 
@@ -60,6 +62,8 @@ class Streaming(BaseHTTPRequestHandler):
         self.server.level = (self.server.level + 1) % BRIGHTEST
         image = np.full((HEIGHT_PX, WIDTH_PX, 3), self.server.level, np.uint8)
         data = cv2.imencode(".jpg", image)[1].tobytes()
+        if self.server.damaging.is_set():
+            data = data[:-CUT_BYTES] + END
         self.wfile.write(HEAD % (len(data), data))
 
     def log_message(self, format: str, *args: object) -> None:
@@ -161,6 +165,23 @@ def test_a_stream_that_hangs_is_given_up_and_opened_again(server: Server) -> Non
     camera.close()
 
     assert error.fault is FaultKind.CAMERA_UNPLUGGED
+
+
+def test_a_damaged_frame_of_a_stream_is_none_and_is_told_of_until_a_whole_one_comes(
+    server: Server, capfd: pytest.CaptureFixture[str]
+) -> None:
+    camera = camera_of(server.server_port)
+    until(lambda: newest(camera) is not None)
+
+    server.damaging.set()
+    error = error_of(camera)
+    server.damaging.clear()
+    until(lambda: newest(camera) is not None)
+    camera.close()
+
+    assert error.fault is FaultKind.CAMERA_UNPLUGGED
+    assert str(error).endswith("a frame is no whole picture: its data is damaged")
+    assert capfd.readouterr().err == ""
 
 
 def test_a_video_keeps_all_its_frames_after_a_stream_was_opened(server: Server, tmp_path: Path) -> None:

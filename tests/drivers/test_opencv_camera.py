@@ -1,6 +1,7 @@
 """The camera of a robot file: recordings are played at their rate; a source that fails is named."""
 
 import os
+import re
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -116,7 +117,8 @@ def test_a_recording_of_another_size_is_refused_naming_both(folder: Path) -> Non
         ("nowhere", None, "nowhere: there is no such device, video, picture or folder"),
         ("/dev/video-none", None, "/dev/video-none: there is no such device"),
         ("broken.avi", b"no video", "broken.avi: cannot be opened as a camera or a video"),
-        ("broken.png", b"no picture", "broken.png: is no picture that can be read"),
+        ("\udcff.avi", b"RIFF", "the name is no text"),
+        ("broken.png", b"no picture", "broken.png: is no whole picture"),
         ("63", None, "63: cannot be opened as a camera"),
         ("", b"", "holds no picture; allowed are .jpg"),
     ],
@@ -177,3 +179,45 @@ def test_a_pipeline_is_refused_in_one_line_where_opencv_has_no_gstreamer(
 )
 def test_a_source_is_shown_without_its_password(source: str, read: str) -> None:
     assert shown(source) == read
+
+
+def test_the_pictures_of_a_folder_are_played_by_their_numbers_and_hidden_files_left_out(
+    tmp_path: Path,
+) -> None:
+    for index, number in enumerate([1, 2, 9, 10, 11]):
+        cv2.imwrite(str(tmp_path / f"frame{number}.png"), grey(STEP * index))
+    (tmp_path / "._frame1.png").write_bytes(b"what a memory card keeps beside each picture")
+    camera = open_camera(CameraName.FRONT, settings(tmp_path), clock=lambda: 0.0)
+
+    assert [index_of(camera.latest(at / RATE_HZ)) for at in range(5)] == [0, 1, 2, 3, 4]
+
+
+@pytest.mark.parametrize("suffix", [".jpg", ".avi"])
+def test_a_damaged_frame_of_a_recording_is_none_and_is_named(
+    suffix: str, tmp_path: Path, capfd: pytest.CaptureFixture[str]
+) -> None:
+    grain = np.random.default_rng(1).integers(0, 256, (3, HEIGHT_PX, WIDTH_PX, 3)).astype(np.uint8)
+    if suffix == ".avi":
+        source = damaged = tmp_path / "drive.avi"
+        writer = cv2.VideoWriter(str(source), cv2.VideoWriter.fourcc(*"MJPG"), RATE_HZ, (WIDTH_PX, HEIGHT_PX))
+        for each in grain:
+            writer.write(each)
+        writer.release()
+    else:
+        source, damaged = tmp_path, tmp_path / "1.jpg"
+        for number, each in enumerate(grain):
+            cv2.imwrite(str(tmp_path / f"{number}.jpg"), each)
+    content = damaged.read_bytes()
+    *_, begin, end = [0, *(each.start() for each in re.finditer(b"\xff\xd8\xff", content)), len(content)][:4]
+    middle = (begin + end) // 2
+    damaged.write_bytes(content[:middle] + bytes(300) + content[middle + 300 :])
+    camera = open_camera(CameraName.FRONT, settings(source), clock=lambda: 0.0)
+    first = camera.latest(0.0)
+
+    with pytest.raises(DriverError, match="is no whole picture: its data is damaged") as caught:
+        camera.latest(1 / RATE_HZ)
+    last = camera.latest(2 / RATE_HZ)
+
+    assert caught.value.fault is FaultKind.CAMERA_UNPLUGGED
+    assert first is not None and last is not None and last.sequence == first.sequence + 2
+    assert capfd.readouterr().err == ""

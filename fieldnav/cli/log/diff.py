@@ -5,7 +5,7 @@ from typing import Annotated, Any
 import typer
 from rich.table import Table
 
-from fieldnav.cli.console import out, print_json, table
+from fieldnav.cli.console import out, print_json, print_line, table
 from fieldnav.cli.log.options import RUN_HELP, RUNS, JsonOption, RunsOption
 from fieldnav.inquiry.difference import Change, Difference, Passed, Tolerance, differences
 from fieldnav.inquiry.moment import clock
@@ -37,7 +37,7 @@ def diff(
         out().print(_differences_table(first, second, found))
         print(_counted(found))
     else:
-        print(f"the same {_transitions(lines)} transitions in {first.path.name} and {second.path.name}")
+        print_line(f"the same {_transitions(lines)} transitions in {first.path.name} and {second.path.name}")
     return DIFFERENT if found else 0
 
 

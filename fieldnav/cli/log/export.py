@@ -5,6 +5,7 @@ from typing import Annotated
 
 import typer
 
+from fieldnav.cli.console import print_line
 from fieldnav.cli.log.export_csv import transitions_csv
 from fieldnav.cli.log.options import RUNS, RunArgument, RunsOption
 from fieldnav.cli.output_folder import output_path
@@ -45,7 +46,7 @@ def export(
         from fieldnav.cli.log.export_mcap import export_mcap  # noqa: PLC0415 - slow to import
 
         export_mcap(directory, _free("--mcap", mcap, force))
-        print(mcap)
+        print_line(str(mcap))
         return
     assert csv is not None
     target = None if csv == STANDARD_OUTPUT else _free("--csv", csv, force)
@@ -56,7 +57,7 @@ def export(
     else:
         transitions_csv(directory, target)
     if target is not None:
-        print(target)
+        print_line(str(target))
 
 
 def _free(option: str, path: Path, force: bool) -> Path:

@@ -1,6 +1,6 @@
 """`fieldnav log list`: the runs there are, and how each ended."""
 
-from fieldnav.cli.console import out, print_json
+from fieldnav.cli.console import out, print_json, print_line
 from fieldnav.cli.log.options import RUNS, JsonOption, RunsOption
 from fieldnav.cli.log.tables import runs_table
 from fieldnav.inquiry.outcome import overview
@@ -16,4 +16,4 @@ def list_runs(runs: RunsOption = RUNS, json: JsonOption = False) -> None:
         console = out()
         console.print(runs_table(str(runs), overviews, console.width))
     else:
-        print(f"no runs in {runs}; make one with: fieldnav simulate demo")
+        print_line(f"no runs in {runs}; make one with: fieldnav simulate demo")

@@ -5,6 +5,7 @@ from typing import Annotated
 
 import typer
 
+from fieldnav.cli.console import print_line
 from fieldnav.cli.log.options import RUNS, RunArgument, RunsOption
 from fieldnav.cli.output_folder import output_path
 from fieldnav.errors import SettingsError
@@ -34,4 +35,5 @@ def plot(
     directory = find_run(run, runs)
     path = out or directory.path / DEFAULT_NAME
     notes = write_plot(directory, path)
-    print(path, *notes, sep="\n")
+    for line in (str(path), *notes):
+        print_line(line)

@@ -5,6 +5,7 @@ from typing import Annotated
 
 import typer
 
+from fieldnav.cli.console import print_line
 from fieldnav.cli.log.options import RUNS, RunArgument, RunsOption
 from fieldnav.cli.output_folder import output_path
 from fieldnav.journal.directory import find_run
@@ -25,4 +26,4 @@ def report(
     """Write a run's report.html: outcome, map, lanes, stops and near misses with pictures, settings."""
     from fieldnav.report.writing import write_report  # noqa: PLC0415 - other commands need not wait for it
 
-    print(write_report(find_run(run, runs), out))
+    print_line(str(write_report(find_run(run, runs), out)))

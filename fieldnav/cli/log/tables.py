@@ -12,6 +12,7 @@ from fieldnav.inquiry.moment import clock
 from fieldnav.inquiry.outcome import Outcome, Overview
 from fieldnav.inquiry.words import decisive, judgement
 from fieldnav.journal.entry import Line
+from fieldnav.settings.one_line import one_line
 
 COLOURS = {
     Outcome.FINISHED: "green",
@@ -32,7 +33,8 @@ def runs_table(title: str, overviews: Sequence[Overview], width: int = WIDE) -> 
     else:
         columns = ("run", "outcome", "lanes", "switches", "distance", "time", "stops", "ended in")
         rows = [
-            (each.run, _outcome(each), *_figures(each), _stops(each), _ending(each)) for each in overviews
+            (one_line(each.run), _outcome(each), *_figures(each), _stops(each), _ending(each))
+            for each in overviews
         ]
     return table(
         f"runs in {title}", columns, rows, right=("lanes", "switches", "distance", "way", "time", "stops")
@@ -43,7 +45,7 @@ def _short(each: Overview) -> tuple[str | Text, ...]:
     lanes, _, distance, time = _figures(each)
     ending = [_ending(each)] if each.outcome is not Outcome.FINISHED else []
     return (
-        Text("\n").join([Text(each.run, style="bold"), *ending]),
+        Text("\n").join([Text(one_line(each.run), style="bold"), *ending]),
         _outcome(each),
         lanes,
         distance,
@@ -57,7 +59,9 @@ def heading(each: Overview) -> Text:
     told = [f"lanes {lanes}"] if lanes else []
     told += [f"switches {switches}, {distance} in {time}"] if each.summary else [f"{time} written down"]
     ending = "" if each.outcome is Outcome.FINISHED else Text.assemble("\n", _ending(each))
-    return Text.assemble((each.run, "bold"), "  ", _outcome(each), f"  {', '.join(told)}", ending, "\n")
+    return Text.assemble(
+        (one_line(each.run), "bold"), "  ", _outcome(each), f"  {', '.join(told)}", ending, "\n"
+    )
 
 
 def transitions_table(lines: Sequence[Line], width: int = WIDE) -> Table:
@@ -88,7 +92,7 @@ def _narrow(lines: Sequence[Line]) -> Table:
             str(line.seq),
             clock(line.stamp_s),
             "" if line.lane is None else str(line.lane),
-            Text("\n").join([Text(f"{line.event}: {states_of(line)}"), *_because(line)]),
+            Text("\n").join([Text(one_line(f"{line.event}: {states_of(line)}")), *_because(line)]),
         )
         for line in lines
     ]
@@ -99,9 +103,9 @@ def _narrow(lines: Sequence[Line]) -> Table:
 
 def _because(line: Line) -> list[Text]:
     """The reason, which stands out where there is one, above the deciding quantities."""
-    reason = [Text(line.reason, style="bold")] if line.reason else []
+    reason = [Text(one_line(line.reason), style="bold")] if line.reason else []
     judged = deciding(line.event, line.evidence) or decisive(line.evidence)
-    return [*reason, *(Text(judgement(each)) for each in judged)]
+    return [*reason, *(Text(one_line(judgement(each))) for each in judged)]
 
 
 def _figures(each: Overview) -> tuple[str, str, str, str]:
@@ -127,5 +131,5 @@ def _outcome(each: Overview) -> Text:
 
 def _ending(each: Overview) -> Text:
     """The last state, and why it was entered."""
-    parts = [Text(each.last_state)] if each.last_state else []
-    return Text(": ").join([*parts, Text(each.reason, style="bold")] if each.reason else parts)
+    parts = [Text(one_line(each.last_state))] if each.last_state else []
+    return Text(": ").join([*parts, Text(one_line(each.reason), style="bold")] if each.reason else parts)

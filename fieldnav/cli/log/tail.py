@@ -9,7 +9,7 @@ import typer
 from rich.console import Console
 from rich.text import Text
 
-from fieldnav.cli.console import out
+from fieldnav.cli.console import json_of, out
 from fieldnav.cli.log.options import RUNS, JsonOption, RunArgument, RunsOption
 from fieldnav.cli.log.tables import heading
 from fieldnav.inquiry.cause import reason_of
@@ -20,6 +20,7 @@ from fieldnav.inquiry.outcome import overview
 from fieldnav.inquiry.stops import is_stop
 from fieldnav.journal.directory import find_run
 from fieldnav.journal.entry import Line
+from fieldnav.settings.one_line import one_line
 
 LAST = 10
 POLL_S = 0.25
@@ -47,13 +48,17 @@ def tail(
 
 def _print(console: Console, line: Line, json: bool) -> None:
     if json:
-        print(line.model_dump_json(), flush=True)
+        print(json_of(line.model_dump(mode="json")), flush=True)
         return
     lane = "" if line.lane is None else f"lane {line.lane}  "
-    because = reason_of(line)
+    because = one_line(reason_of(line))
     style = "bold red" if is_stop(line) else "bold"
+    event, states = one_line(line.event), one_line(states_of(line))
     text = Text.assemble(
-        (f"{clock(line.stamp_s):>7}  ", "dim"), lane, (line.event, style), f"  {states_of(line)}"
+        (f"{clock(line.stamp_s):>7}  ", "dim"),
+        lane,
+        (event, style),
+        f"  {states}",
     )
     console.print(
         text + Text(f"  {because}" if because else "", style="" if is_stop(line) else "dim"), soft_wrap=True

@@ -10,6 +10,7 @@ from fieldnav.inquiry.cause import reason_of
 from fieldnav.inquiry.moment import clock
 from fieldnav.inquiry.stops import is_note, is_stop
 from fieldnav.journal.entry import Line
+from fieldnav.settings.one_line import one_line
 
 PHASE_PARTS = 2
 """Of a state's name, the direction and the phase: Forward.Follow."""
@@ -22,9 +23,11 @@ def lanes_tree(lines: Sequence[Line]) -> Tree:
         branch = tree.add(Text("before the first lane" if lane is None else f"lane {lane}", style="bold"))
         for phase, in_phase in groupby(within, key=_phase):
             shown = list(in_phase)
-            leaf = branch.add(Text.assemble((phase, "cyan"), (f"  {clock(shown[0].stamp_s)}", "dim")))
+            leaf = branch.add(
+                Text.assemble((one_line(phase), "cyan"), (f"  {clock(shown[0].stamp_s)}", "dim"))
+            )
             for line in shown:
-                leaf.add(Text.assemble(*_told(line, phase)))
+                leaf.add(Text.assemble(*((one_line(told), style) for told, style in _told(line, phase))))
     return tree
 
 

@@ -15,6 +15,7 @@ from fieldnav.inquiry.moment import clock
 from fieldnav.inquiry.stops import is_note
 from fieldnav.inquiry.words import judgements, measured
 from fieldnav.journal.entry import Judged, Line
+from fieldnav.settings.one_line import one_line
 
 HOLDS = {True: "green", False: "red", None: ""}
 """Styles of a margin."""
@@ -25,10 +26,10 @@ def judged_table(title: str, rows: Sequence[Row]) -> Table:
     columns = ("quantity", "value", "threshold", "margin", "condition of")
     cells = [
         (
-            Text(row.name, style="bold" if row.decided else ""),
+            Text(one_line(row.name), style="bold" if row.decided else ""),
             row.value,
             row.threshold,
-            Text(row.margin, style=HOLDS[row.holds]),
+            Text(one_line(row.margin), style=HOLDS[row.holds]),
             row.condition,
         )
         for row in rows

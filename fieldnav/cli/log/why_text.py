@@ -15,6 +15,7 @@ from fieldnav.inquiry.evidence_rows import evidence_rows
 from fieldnav.inquiry.headline import Headline, Kind
 from fieldnav.inquiry.moment import clock
 from fieldnav.journal.entry import Judged
+from fieldnav.settings.one_line import one_line
 
 if TYPE_CHECKING:
     from fieldnav.cli.log.recorded import Recorded
@@ -33,18 +34,18 @@ def print_explanation(
     picture: Path | None,
 ) -> None:
     """known: of the half minute before; lacking: why nothing is known of it."""
-    console.print(Text(said.text, style=STYLES.get(said.kind, "bold")), soft_wrap=True)
+    console.print(Text(one_line(said.text), style=STYLES.get(said.kind, "bold")), soft_wrap=True)
     fault = said.cause.fault
     if fault is not None:
         console.print(Text(f"look at: {FAULTS[fault].advice}", style="green"))
         console.print(Text(f"{fault.value} means: {FAULTS[fault].noticed}", style="dim"))
     _print_judged(console, asked, said)
     if known is None:
-        console.print(Text(f"\n{lacking}", style="dim"))
+        console.print(Text(f"\n{one_line(lacking)}", style="dim"))
     else:
         _print_charts(console, asked, said, known)
     if picture is not None:
-        console.print(Text(f"\npicture: {picture}"), soft_wrap=True)
+        console.print(Text(f"\npicture: {one_line(str(picture))}"), soft_wrap=True)
     console.print()
     console.print(neighbours_table(asked))
 
@@ -52,7 +53,7 @@ def print_explanation(
 def _print_judged(console: Console, asked: Asked, said: Headline) -> None:
     state = asked.line.source if asked.happened else asked.line.target
     if not said.evidence:
-        console.print(Text(f"\nof what {state} judged nothing is written down here", style="dim"))
+        console.print(Text(f"\nof what {one_line(state)} judged nothing is written down here", style="dim"))
         return
     console.print()
     rows = evidence_rows(said.evidence, asked.line.event if asked.happened else "")

@@ -4,7 +4,6 @@ import time
 from collections.abc import Callable
 from contextlib import ExitStack
 from dataclasses import dataclass
-from threading import Event
 from types import TracebackType
 from typing import Self
 
@@ -93,10 +92,10 @@ class ServedRobot:
     ) -> None:
         self._open.close()
 
-    def serve(self, stopping: Event) -> None:
+    def serve(self, stopping: Callable[[], bool]) -> None:
         """Let the world go on with the clock; when it was late it catches up, a few steps at a time."""
         step = round(self.world.now.stamp_s / STEP_S)
-        while not stopping.is_set():
+        while not stopping():
             self.hub.attend((step + 1) * STEP_S)
             reached = int(self.now_s() / STEP_S + TOLERANCE_STEPS)
             for _ in range(min(reached - step, CATCH_UP_STEPS)):
