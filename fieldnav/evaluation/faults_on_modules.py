@@ -11,7 +11,7 @@ from fieldnav.faults import FaultKind
 RUNAWAY_MPS = 1.0
 """Twice the working speed."""
 PRESSED_S = (0.1, 1.0)
-"""So long the emergency stop is pressed, beside for ever: shorter and longer than a health telegram's cycle."""
+"""So long the emergency stop is pressed, beside for ever: as one health telegram takes, and as ten."""
 LATE = frozenset({FaultKind.MODULE_LATE})
 """What a module that falls silent is at first."""
 
