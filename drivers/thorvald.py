@@ -14,7 +14,7 @@ from drivers.module_link import ASKED, Missing, ModuleLink
 from drivers.module_rounds import ModuleRounds
 from drivers.module_watch import check_modules, objection
 from drivers.takeover import Takeover
-from drivers.thorvald_protocol import Kind, RoboteqObject
+from drivers.thorvald_protocol import Kind, Mode, RoboteqObject
 from drivers.wire_layout import check_nodes
 from fieldnav.errors import DriverError
 from fieldnav.faults import FAULTS, FaultKind, Reaction, Trouble
@@ -93,13 +93,16 @@ class ThorvaldWheels:
         back = self._receive(now_s)
         was_taken, self.taken_over = self.taken_over, self._takeover.lasts(now_s)
         if self._started:
-            late = now_s - self._commanded_s > self._timeouts.command_s
-            if (back or late) and not self.taken_over:
-                self._rounds.drive(now_s, {})
             given_back = was_taken and not self.taken_over
             if given_back:
                 self._forget_modes(now_s)
-            if back or given_back or now_s - self._asked_s >= RETRY_S - TOLERANCE_S:
+            asks = back or given_back or now_s - self._asked_s >= RETRY_S - TOLERANCE_S
+            # A module that is set to drive goes by its newest set-point.
+            sets_mode = asks and any(link.mode.value != Mode.DRIVE for link in self._links.values())
+            late = now_s - self._commanded_s > self._timeouts.command_s
+            if (back or late or sets_mode) and not self.taken_over:
+                self._rounds.drive(now_s, {})
+            if asks:
                 self._ask(now_s)
             if now_s - self._heartbeat_s >= self._timeouts.heartbeat_s - TOLERANCE_S:
                 self._beat(now_s)

@@ -93,9 +93,7 @@ class Operating:
         if mission.wheels.taken_over:
             return "somebody else commands the wheels"
         if mission.wheels.stops is not None:
-            return (
-                f"{mission.wheels.stops}: see to it first; what the module does not take back, reset forgets"
-            )
+            return f"{mission.wheels.stops}; see to it and resume again, or reset"
         if self._moved_m > self._allowed_m:
             return f"the robot was moved by {self._moved_m:.2f} m meanwhile: reset lets it look for its place"
         if mission.course.machine.leaf == PAUSED:

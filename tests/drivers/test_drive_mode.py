@@ -179,3 +179,16 @@ def test_an_answer_that_was_on_its_way_when_another_set_the_mode_tells_nothing(b
 
     assert told(bench, 0.5) == [FaultKind.FOREIGN_COMMAND]
     assert not bench.wheels.ready
+
+
+def test_a_module_is_set_to_drive_only_after_it_was_told_to_stand(bench: Bench) -> None:
+    bench.start()
+    bench.run(1.0, FORWARD)
+    bench.frames()
+    bench.modules.modules[FL].mode = Mode.DECOUPLED
+    assert told(bench, 2 * RETRY_S) == [FaultKind.MODULE_MODE]
+
+    frames = bench.frames()
+    set_at = next(index for index, frame in enumerate(frames) if frame.arbitration_id == MODE_FL)
+    before = [frame for frame in frames[:set_at] if frame.arbitration_id == 0x203]
+    assert before and before[-1].data[4:] == bytes(4)

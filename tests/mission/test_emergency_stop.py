@@ -33,7 +33,7 @@ def said(rig) -> list[str]:
     ]
 
 
-@pytest.mark.parametrize("seconds", [TICK_S, 0.1, 1.0, 3.0])
+@pytest.mark.parametrize("seconds", [TICK_S, 1.0])
 def test_a_stop_that_is_released_moves_nothing_until_a_person_says_so(rig, seconds: float) -> None:
     operating = Operating(rig.mission)
     operating.watch()
