@@ -4,7 +4,7 @@ from collections import deque
 from collections.abc import Mapping
 from enum import Enum
 
-from drivers.module_faults import graver, module_trouble
+from drivers.module_faults import EMERGENCY_CLASS, graver, module_trouble
 from drivers.module_units import speed_from_rpm, steering_from_counts
 from drivers.plausibility import plausible
 from drivers.thorvald_protocol import (
@@ -125,7 +125,7 @@ class ModuleLink:
         A node that has booted is free of errors and does not say so (CiA 301, 7.2.7.1).
         """
         self._left_operation()
-        self._emergency_codes: set[int] = set()
+        self._emergency_codes: dict[int, int] = {}  # the newest of each class
         self._emergency_flags = 0
         self._judge()
 
@@ -249,7 +249,7 @@ class ModuleLink:
     def _take_emergency(self, code: int, values: Mapping[str, float]) -> None:
         """Errors add up until the register says that none is left; a reset does not say of which it is."""
         if code > ERROR_RESET:
-            self._emergency_codes.add(code)
+            self._emergency_codes[code & EMERGENCY_CLASS] = code
             self._emergency_flags = int(values["FaultFlags"])
         elif not values["ErrorRegister"]:
             self._emergency_codes.clear()
@@ -269,7 +269,7 @@ class ModuleLink:
     def _judge(self) -> None:
         """What the newest signs mean; a stop or a failure that begins is told, however soon it is over."""
         fault_flags = (self.faults.value or 0) | self._emergency_flags
-        signs = (self._flags, fault_flags, frozenset(self._emergency_codes), self.mode.value)
+        signs = (self._flags, fault_flags, tuple(sorted(self._emergency_codes.values())), self.mode.value)
         if signs == self._judged:
             return
         self._judged = signs

@@ -209,3 +209,15 @@ def test_a_module_that_does_not_tell_its_health_is_not_ready(bench: Bench) -> No
     told(bench, 1.0)
 
     assert not bench.wheels.ready
+
+
+def test_a_flood_of_emergency_codes_makes_no_endless_line(bench: Bench) -> None:
+    bench.start()
+    said = []
+    for code in range(0x2000, 0x2400):
+        emergency(bench, code, register=1)
+        if code % 16 == 0:
+            said += told(bench, 0.02)
+
+    assert len(said) == 1
+    assert len(str(bench.report.modules[FL].trouble)) < 200
