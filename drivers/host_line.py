@@ -6,7 +6,7 @@ import can
 
 from drivers.bus_watch import BusWatch
 from drivers.module_units import speed_to_per_mille, steering_to_per_mille
-from drivers.thorvald_protocol import Kind, NmtCommand, NodeState, RoboteqObject, SdoCommand
+from drivers.thorvald_protocol import Kind, Mode, NmtCommand, NodeState, RoboteqObject, SdoCommand
 from drivers.wire_layout import NO_NODE, Telegram, wire_layout
 from fieldnav.errors import DriverError
 from fieldnav.settings.robot import Bus, Module
@@ -63,21 +63,20 @@ class HostLine:
         """The host's own heartbeat."""
         self._send(now_s, NO_NODE, Kind.HOST_HEARTBEAT, State=NodeState.OPERATIONAL)
 
-    def read_object(self, now_s: float, module: Module, entry: RoboteqObject) -> None:
-        self._request(now_s, module, SdoCommand.READ, entry, 0)
+    def set_mode(self, now_s: float, module: Module, mode: Mode) -> None:
+        self._send(now_s, module.node_id, Kind.MODE, Mode=mode, ModeRepeated=mode)
+
+    def read_object(self, now_s: float, module: Module, entry: RoboteqObject, subindex: int = 0) -> None:
+        values = {"Command": SdoCommand.READ, "Index": entry, "Subindex": subindex, "Value": 0}
+        self._send(now_s, module.node_id, Kind.SDO_REQUEST, **values)
 
     def set_object(self, now_s: float, module: Module, entry: RoboteqObject) -> None:
         """Write 1 to an object that acts when written."""
-        self._request(now_s, module, SdoCommand.WRITE_1_BYTE, entry, 1)
+        values = {"Command": SdoCommand.WRITE_1_BYTE, "Index": entry, "Subindex": 0, "Value": 1}
+        self._send(now_s, module.node_id, Kind.SDO_REQUEST, **values)
 
     def close(self) -> None:
         self._bus.shutdown()
-
-    def _request(
-        self, now_s: float, module: Module, command: SdoCommand, entry: RoboteqObject, value: int
-    ) -> None:
-        values = {"Command": command, "Index": entry, "Subindex": 0, "Value": value}
-        self._send(now_s, module.node_id, Kind.SDO_REQUEST, **values)
 
     def _send(self, now_s: float, node: int, kind: Kind, **values: float) -> None:
         try:

@@ -5,7 +5,7 @@ from functools import partial
 
 from drivers.host_line import HostLine
 from drivers.module_link import Missing, ModuleLink
-from drivers.thorvald_protocol import RoboteqObject
+from drivers.thorvald_protocol import MODE_VARIABLE, Mode, RoboteqObject
 from fieldnav.errors import DriverError
 from fieldnav.messages import Wheel, WheelSetpoint
 
@@ -34,14 +34,25 @@ class ModuleRounds:
         _send_all(frames)
 
     def ask(self, now_s: float) -> None:
-        """Ask every module for what it still has to say."""
+        """Start every module that is not in operation, and ask each for its fault flags."""
         frames: list[tuple[ModuleLink, Frame]] = []
         for link in self._links.values():
             if link.missing is Missing.STATE:
                 frames.append((link, partial(self._line.start_node, now_s, link.module)))
-            if link.fault_flags is None:
-                entry = RoboteqObject.FAULT_FLAGS
-                frames.append((link, partial(self._line.read_object, now_s, link.module, entry)))
+            link.faults.asked()
+            entry = RoboteqObject.FAULT_FLAGS
+            frames.append((link, partial(self._line.read_object, now_s, link.module, entry)))
+        _send_all(frames)
+
+    def ask_mode(self, now_s: float) -> None:
+        """Set the mode "drive" where it is not known to be set, and ask every module for its mode."""
+        frames: list[tuple[ModuleLink, Frame]] = []
+        for link in self._links.values():
+            if link.mode.value != Mode.DRIVE:
+                frames.append((link, partial(self._line.set_mode, now_s, link.module, Mode.DRIVE)))
+            link.mode.asked()
+            variable = RoboteqObject.USER_VARIABLE, MODE_VARIABLE
+            frames.append((link, partial(self._line.read_object, now_s, link.module, *variable)))
         _send_all(frames)
 
     def set(self, now_s: float, entry: RoboteqObject) -> None:

@@ -3,6 +3,7 @@
 from collections.abc import Mapping
 from typing import Protocol
 
+from fieldnav.faults import Trouble
 from fieldnav.messages import Frame, Wheel, WheelReport, WheelSetpoint
 
 
@@ -32,6 +33,11 @@ class Wheels(Protocol):
     @property
     def taken_over(self) -> bool:
         """Whether somebody else has commanded the wheels a moment ago; they are then left alone."""
+        ...
+
+    @property
+    def stops(self) -> Trouble | None:
+        """What a person must see to before the wheels may move, such as an emergency stop that is pressed."""
         ...
 
     def start(self, now_s: float) -> None:

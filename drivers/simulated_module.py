@@ -1,7 +1,7 @@
 """One simulated wheel module: what it obeys, as a CANopen node.
 
-The fault switches (`silent`, `muted`, `steering_stuck`, `blocked`, `runaway_mps`, `faults`) and `reboot`
-break a module as real ones break.
+The fault switches (`silent`, `muted`, `steering_stuck`, `blocked`, `runaway_mps`, `faults`, `undervoltage`)
+and `reboot` break a module as real ones break; `button_pressed` is the robot's emergency stop.
 """
 
 from collections.abc import Mapping
@@ -9,6 +9,7 @@ from collections.abc import Mapping
 from drivers.module_units import speed_from_per_mille, steering_from_per_mille
 from drivers.simulated_motion import ModuleErrors, SimulatedMotion
 from drivers.thorvald_protocol import (
+    MODE_VARIABLE,
     FaultFlag,
     Kind,
     Mode,
@@ -61,7 +62,8 @@ class SimulatedModule:
         self.muted: frozenset[Kind] = frozenset()  # telegrams that it no longer sends
         self.steering_stuck = self.blocked = False
         self.runaway_mps: float | None = None  # so it drives whatever it is told, but for the emergency stop
-        self.emergency_stop = False
+        self.emergency_stop = False  # by object 200C
+        self.button_pressed = self.undervoltage = False
         self.reboot()
 
     def reboot(self) -> None:
@@ -75,15 +77,21 @@ class SimulatedModule:
         self._wanted_rad: float | None = None
 
     @property
+    def stopped(self) -> bool:
+        """Whether its motors are off, by the robot's button or by object 200C."""
+        return self.button_pressed or self.emergency_stop
+
+    @property
     def flags(self) -> int:
         """TPDO3's flags; a module that has a fault is not healthy, a wrong command alone is no fault."""
-        flags = self.faults | POWER_STAGE_OFF if self.emergency_stop else self.faults
-        return flags if flags & ~ILLEGAL_COMMAND else flags | HEALTHY
+        flags = self.faults | POWER_STAGE_OFF if self.stopped else self.faults
+        return flags if flags & ~ILLEGAL_COMMAND or self.undervoltage else flags | HEALTHY
 
     @property
     def fault_flags(self) -> FaultFlag:
         """Object 2112's flags."""
-        return FaultFlag.EMERGENCY_STOP if self.emergency_stop else FaultFlag(0)
+        low = FaultFlag.UNDERVOLTAGE if self.undervoltage else FaultFlag(0)
+        return low | FaultFlag.EMERGENCY_STOP if self.stopped else low
 
     @property
     def truth(self) -> WheelSetpoint:
@@ -95,13 +103,13 @@ class SimulatedModule:
 
     def advance(self, now_s: float, dt_s: float) -> None:
         """Move for `dt_s` as the newest commands, the watchdog and the mode say."""
-        running = self.state is NodeState.OPERATIONAL and not self.emergency_stop
+        running = self.state is NodeState.OPERATIONAL and not (self.stopped or self.undervoltage)
         driving = running and self.mode is Mode.DRIVE and now_s - self._renewed_s < WATCHDOG_S
         wanted_rad = self._wanted_rad if driving else None
         if running and self.mode is Mode.HOME:
             wanted_rad = HOME_RAD
         wanted_mps = self._wanted_mps if driving else 0.0
-        if self.runaway_mps is not None and not self.emergency_stop:
+        if self.runaway_mps is not None and not self.stopped:
             wanted_mps = self.runaway_mps
         self.motion.advance(dt_s, wanted_mps, None if self.steering_stuck else wanted_rad)
         if self.blocked:
@@ -112,7 +120,7 @@ class SimulatedModule:
         if kind is Kind.NMT:
             self._obey_nmt(int(values["Command"]))
         elif kind is Kind.SDO_REQUEST and self.state not in (NodeState.BOOT, NodeState.STOPPED):
-            return self._answer(int(values["Command"]), int(values["Index"]), int(values["Value"]))
+            return self._answer({name: int(value) for name, value in values.items()})
         elif self.state is NodeState.OPERATIONAL:
             self._obey_process_data(now_s, kind, values)
         return None
@@ -146,11 +154,14 @@ class SimulatedModule:
         elif value > 0:
             self.cycles_ms[parameter] = value
 
-    def _answer(self, command: int, index: int, value: int) -> Mapping[str, float]:
+    def _answer(self, request: Mapping[str, int]) -> Mapping[str, float]:
+        command, index, subindex = request["Command"], request["Index"], request["Subindex"]
         reply, data = SdoCommand.ABORT, NO_SUCH_OBJECT
         if command == SdoCommand.READ and index == RoboteqObject.FAULT_FLAGS:
             reply, data = SdoCommand.READ_1_BYTE, int(self.fault_flags)
-        elif command == SdoCommand.WRITE_1_BYTE and index in EMERGENCY_STOPS and value == 1:
+        elif command == SdoCommand.READ and (index, subindex) == (RoboteqObject.USER_VARIABLE, MODE_VARIABLE):
+            reply, data = SdoCommand.READ_4_BYTES, int(self.mode)
+        elif command == SdoCommand.WRITE_1_BYTE and index in EMERGENCY_STOPS and request["Value"] == 1:
             self.emergency_stop = index == RoboteqObject.EMERGENCY_STOP
             reply, data = SdoCommand.WRITTEN, 0
-        return {"Command": reply, "Index": index, "Subindex": 0, "Value": data}
+        return {"Command": reply, "Index": index, "Subindex": subindex, "Value": data}

@@ -90,7 +90,7 @@ class SimulatedModules:
             to_all = telegram.kind is Kind.NMT and node == NMT_TO_ALL
             if to_all or node == module.module.node_id:
                 answer = module.obey(now_s, telegram.kind, telegram.values)
-                if answer is not None:
+                if answer is not None and Kind.SDO_REPLY not in module.muted:
                     self._say(now_s, module, Kind.SDO_REPLY, answer)
 
     def _say(self, now_s: float, module: SimulatedModule, kind: Kind, values: Mapping[str, float]) -> None:

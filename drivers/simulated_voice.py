@@ -22,7 +22,7 @@ MODULE_TYPE = 1
 VERSION = {"VersionMajor": 1, "VersionMinor": 0, "VersionPatch": 0}
 """What a simulated module calls itself."""
 
-EXTERNAL_STOP, MOTOR_FAULT = 0x9000, 0x7100
+EXTERNAL_STOP, MOTOR_FAULT, LOW_VOLTAGE = 0x9000, 0x7100, 0x3120
 """Error codes of the emergency telegram (CiA 301)."""
 
 MOST_PER_MILLE = 1000
@@ -115,11 +115,16 @@ class Voice:
         if flags == self._flags:
             return []
         self._flags = flags
-        code = 0
-        if not flags & ModuleFlag.HEALTHY.value:
-            code = EXTERNAL_STOP if self._module.emergency_stop else MOTOR_FAULT
+        if Kind.EMERGENCY in self._module.muted:
+            return []
+        code = 0 if flags & ModuleFlag.HEALTHY.value else self._emergency_code()
         values = {"ErrorRegister": int(code != 0), "FaultFlags": int(self._module.fault_flags), "Detail": 0}
         return [(Kind.EMERGENCY, {"ErrorCode": code, **values})]
+
+    def _emergency_code(self) -> int:
+        if self._module.stopped:
+            return EXTERNAL_STOP
+        return MOTOR_FAULT if self._module.faults else LOW_VOLTAGE
 
 
 def _as_signed(value: int, bits: int) -> int:

@@ -10,19 +10,22 @@ from contextlib import suppress
 import can
 
 from drivers.host_line import HostLine
-from drivers.module_link import ModuleLink
+from drivers.module_link import ASKED, Missing, ModuleLink
 from drivers.module_rounds import ModuleRounds
 from drivers.module_watch import check_modules, objection
 from drivers.takeover import Takeover
-from drivers.thorvald_protocol import Kind, RoboteqObject
+from drivers.thorvald_protocol import Kind, Mode, RoboteqObject
 from drivers.wire_layout import check_nodes
 from fieldnav.errors import DriverError
-from fieldnav.faults import FaultKind
+from fieldnav.faults import FAULTS, FaultKind, Reaction, Trouble
 from fieldnav.messages import Wheel, WheelReport, WheelSetpoint
 from fieldnav.settings.robot import Robot
 
 RETRY_S = 0.5
-"""How long a module has to answer before it is asked again; our choice."""
+"""How often modules are asked how they are, and how long one has to answer; our choice."""
+
+RELEASED_S = 0.5
+"""So long after its release modules may still tell of an emergency stop that the host had set; our choice."""
 
 TOLERANCE_S = 1e-6
 """A period that ticks fill exactly must not slip by one for the rounding of times."""
@@ -31,13 +34,20 @@ TOLERANCE_S = 1e-6
 class ThorvaldWheels:
     """Four drive-and-steer modules on one bus. Raises SettingsError for a node id that the DBC file lacks."""
 
-    def __init__(self, robot: Robot, bus: can.BusABC, listening: bool = False) -> None:
-        """listening: nothing goes out, so that others may command the wheels."""
+    def __init__(
+        self,
+        robot: Robot,
+        bus: can.BusABC,
+        listening: bool = False,
+        asked: frozenset[Missing] = ASKED,
+    ) -> None:
+        """listening: nothing goes out, so that others may command the wheels; asked: see ModuleLink."""
         check_nodes(robot)
         self._listening = listening
         self._line = HostLine(bus, robot.can)
         self._timeouts = robot.timeouts
-        self._links = {wheel: ModuleLink(wheel, robot.modules[wheel]) for wheel in Wheel}
+        asked = frozenset() if listening else asked
+        self._links = {wheel: ModuleLink(wheel, robot.modules[wheel], asked) for wheel in Wheel}
         self._by_node = {link.module.node_id: link for link in self._links.values()}
         self._rounds = ModuleRounds(self._line, self._links)
         self._started = False
@@ -46,13 +56,19 @@ class ThorvaldWheels:
         self._commanded_s = 0.0
         self._heartbeat_s = -math.inf
         self._takeover, self.taken_over = Takeover(), False
+        self._own_stop, self._released_s = False, math.inf
         self._charge_percent: float | None = None
 
     @property
     def ready(self) -> bool:
         """All modules are operational and are the ones of the robot file; until then only zero is sent."""
         links = self._links.values()
-        return self._started and all(link.missing is None and objection(link) is None for link in links)
+        return self._started and all(map(_is_ready, links))
+
+    @property
+    def stops(self) -> Trouble | None:
+        """The first module's trouble that a person must see to before anything may move."""
+        return next((link.stops for link in self._links.values() if link.stops is not None), None)
 
     def versions(self) -> dict[Wheel, tuple[int, int, int] | None]:
         """The modules' script versions (major, minor, patch), as far as they have said them."""
@@ -75,15 +91,22 @@ class ThorvaldWheels:
         for a bus that is flooded or off, and for commands that somebody else begins to give.
         """
         back = self._receive(now_s)
-        self.taken_over = self._takeover.lasts(now_s)
+        was_taken, self.taken_over = self.taken_over, self._takeover.lasts(now_s)
         if self._started:
+            given_back = was_taken and not self.taken_over
+            if given_back:
+                self._forget_modes(now_s)
+            asks = back or given_back or now_s - self._asked_s >= RETRY_S - TOLERANCE_S
+            # A module that is set to drive goes by its newest set-point.
+            sets_mode = asks and any(link.mode.value != Mode.DRIVE for link in self._links.values())
             late = now_s - self._commanded_s > self._timeouts.command_s
-            if (back or late) and not self.taken_over:
+            if (back or late or sets_mode) and not self.taken_over:
                 self._rounds.drive(now_s, {})
-            if back or now_s - self._asked_s >= RETRY_S:
+            if asks:
                 self._ask(now_s)
             if now_s - self._heartbeat_s >= self._timeouts.heartbeat_s - TOLERANCE_S:
                 self._beat(now_s)
+            self._excuse_own_stop(now_s)
             check_modules(self._links.values(), now_s, self._starting_s, self._timeouts.module_s)
         reports = {wheel: link.report for wheel, link in self._links.items()}
         said = {wheel: report for wheel, report in reports.items() if report is not None}
@@ -115,6 +138,7 @@ class ThorvaldWheels:
 
         Raises DriverError when a frame did not go out; all the others have then been sent.
         """
+        self._own_stop, self._released_s = True, math.inf
         try:
             self._rounds.drive(now_s, {})
         finally:
@@ -127,6 +151,7 @@ class ThorvaldWheels:
         """
         self._rounds.drive(now_s, {})
         self._rounds.set(now_s, RoboteqObject.EMERGENCY_STOP_RELEASE)
+        self._released_s = now_s
 
     def close(self) -> None:
         self._line.close()
@@ -139,6 +164,8 @@ class ThorvaldWheels:
             if self._takeover.is_command(telegram) and not self._listening:
                 called = link.name if link else "the bus"
                 foreign = self._takeover.note(telegram, called, now_s) or foreign
+                self.taken_over = True
+                self._forget_modes(now_s)
             elif telegram.kind is Kind.BATTERY_CHARGE and telegram.values:
                 self._charge_percent = telegram.values["StateOfCharge"]
             elif link:
@@ -150,10 +177,34 @@ class ThorvaldWheels:
             raise DriverError(foreign, FaultKind.FOREIGN_COMMAND)
         return back
 
+    def _forget_modes(self, now_s: float) -> None:
+        """Who else commanded the wheels may have set any mode: it is set and read back once that is over."""
+        self._starting_s = now_s
+        for link in self._links.values():
+            link.mode.disregard()
+
+    def _excuse_own_stop(self, now_s: float) -> None:
+        """That the modules stand in an emergency stop which the host has set is no news."""
+        if not self._own_stop:
+            return
+        over = now_s - self._released_s > RELEASED_S
+        for link in self._links.values():
+            link.excuse(over)
+        self._own_stop = not over
+
     def _ask(self, now_s: float) -> None:
         self._asked_s = now_s
         self._rounds.ask(now_s)
+        if not self.taken_over:
+            self._rounds.ask_mode(now_s)
 
     def _beat(self, now_s: float) -> None:
         self._heartbeat_s = now_s
         self._line.beat(now_s)
+
+
+def _is_ready(link: ModuleLink) -> bool:
+    """Whether a module may move; what passes by itself is held for by who commands it."""
+    trouble = link.trouble
+    well = trouble is None or FAULTS[trouble.fault].reaction is Reaction.HOLD
+    return well and link.missing is None and objection(link) is None

@@ -64,7 +64,16 @@ class RoboteqObject(IntEnum):
 
     EMERGENCY_STOP = 0x200C
     EMERGENCY_STOP_RELEASE = 0x200D
+    USER_VARIABLE = 0x2106
     FAULT_FLAGS = 0x2112
+
+
+MODE_VARIABLE = 1
+"""Sub-index of USER_VARIABLE under which a module's script tells its drive mode.
+
+The object, which reads the script's integer variables, is sourced. That the script keeps its mode in the
+first of them is our choice: no public telegram tells the mode.
+"""
 
 
 class Mode(IntEnum):
@@ -131,16 +140,3 @@ class FaultFlag(IntFlag):
     SENSOR_OR_SET_UP = 0x20
     MOSFET = 0x40
     DEFAULT_CONFIGURATION = 0x80
-
-
-def words(flags: IntFlag) -> str:
-    """The set flags in words, for a person: "stall, power stage off"."""
-    return ", ".join(str(flag.name).lower().replace("_", " ") for flag in flags) or "none"
-
-
-def flag_faults(flags: int) -> str:
-    """What is wrong according to a module's TPDO3 flags, in words; empty when nothing is."""
-    faults = ModuleFlag(flags) & ~ModuleFlag.HEALTHY
-    if faults:
-        return words(faults)
-    return "" if flags & ModuleFlag.HEALTHY else "controller not healthy"

@@ -32,7 +32,10 @@ class FaultKind(Enum):
     MODULE_LATE = "module late"
     MODULE_SILENT = "module silent"
     MODULE_REBOOTED = "module rebooted"
+    EMERGENCY_STOP = "emergency stop pressed"
+    MODULE_FAILED = "module failed"
     MODULE_UNHEALTHY = "module unhealthy"
+    MODULE_MODE = "module not in drive mode"
     MODULE_OTHER = "module not as in the robot file"
     STEERING_STUCK = "steering stuck"
     DRIVE_RUNAWAY = "drive runs away"
@@ -110,14 +113,29 @@ FAULTS: dict[FaultKind, Declared] = {
     FaultKind.MODULE_REBOOTED: Declared(
         Reaction.LATCH, "its heartbeat leaves operation", "see to its power; check its homing"
     ),
+    FaultKind.EMERGENCY_STOP: Declared(
+        Reaction.STOP,
+        "a module says power stage off, EMCY 9000 or emergency stop (object 2112), however short",
+        "see why it was pressed and pull it out; a mission then goes on by resume or reset",
+    ),
+    FaultKind.MODULE_FAILED: Declared(
+        Reaction.STOP,
+        "a module says a fault that does not pass by itself: encoder, homing, stall, heat, electronics",
+        "see to the module",
+    ),
     FaultKind.MODULE_UNHEALTHY: Declared(
         Reaction.HOLD,
-        "a fault in its flags or an emergency telegram",
+        "a module says a fault that may pass by itself: voltage, lost telegrams, an illegal command",
         "read its flags",
+    ),
+    FaultKind.MODULE_MODE: Declared(
+        Reaction.STOP,
+        "the mode read back from a module is not drive; drive is set again",
+        "find who sets it; then resume",
     ),
     FaultKind.MODULE_OTHER: Declared(
         Reaction.LATCH,
-        "a constant read back is not the robot file's, or it reports a fault",
+        "a constant read back is not the robot file's",
         "set the module or the robot file right",
     ),
     FaultKind.STEERING_STUCK: Declared(

@@ -11,6 +11,8 @@ from enum import Enum
 import numpy as np
 from numpy.typing import NDArray
 
+from fieldnav.faults import Trouble
+
 Image = NDArray[np.uint8]
 """A colour image, shape (height, width, 3), channels blue, green, red."""
 
@@ -129,15 +131,18 @@ class WheelSetpoint:
 
 @dataclass(frozen=True, slots=True)
 class ModuleReport:
-    """What one module last said; `stamp_s` is when its motion frame arrived, flags as in TPDO3."""
+    """What one module last said; `stamp_s` is when its motion frame arrived, `trouble` what is not well."""
 
     stamp_s: float
     speed_mps: float
     steering_rad: float
-    healthy: bool = True
-    flags: int = 1
+    trouble: Trouble | None = None
     temperature_c: float = 0.0
     battery_v: float = 0.0
+
+    @property
+    def healthy(self) -> bool:
+        return self.trouble is None
 
 
 @dataclass(frozen=True, slots=True)

@@ -46,8 +46,12 @@ MOVING = {
     Reaction.MODULES_STOP: Expected.MODULES_STOP,
 }
 
-WITHOUT_A_MISSION = frozenset({FaultKind.MODULE_REBOOTED, FaultKind.PROGRAM, FaultKind.LOOP_LATE})
+WITHOUT_A_MISSION = frozenset(
+    {FaultKind.MODULE_REBOOTED, FaultKind.MODULE_MODE, FaultKind.PROGRAM, FaultKind.LOOP_LATE}
+)
 """Faults that nothing is left of once a mission has been started."""
+TOLD_AT_REST = frozenset({FaultKind.EMERGENCY_STOP, FaultKind.MODULE_FAILED, FaultKind.MODULE_MODE})
+"""Faults that the modules tell also at rest: a pause becomes a stop, elsewhere they are written down."""
 ONCE = frozenset({FaultKind.WALL_CLOCK, FaultKind.LOOP_LATE, FaultKind.FOREIGN_COMMAND})
 """Faults that are over before a person has done anything about them."""
 
@@ -65,9 +69,12 @@ def expected(leaf: Path, injection: Injection) -> Expected:
         return Expected.UNTOUCHED  # the wheels stand: nothing has been driven on what was seen before
     if leaf in ON_ITS_WAY:
         return Expected.HELD if injection.passing else MOVING[injection.reaction]
+    if injection.fault in TOLD_AT_REST:
+        return MOVING[injection.reaction] if leaf == PAUSED else Expected.STANDS
     return MOVING[injection.reaction] if goes_on_by_hand(leaf, injection) else Expected.STANDS
 
 
 def goes_on_by_hand(leaf: Path, injection: Injection) -> bool:
     """Whether a person lets the mission go on with the fault, unless it has shown itself by then."""
-    return leaf in WAITING and not injection.passing and injection.fault not in ONCE
+    over = injection.passing or injection.fault in ONCE or injection.fault in TOLD_AT_REST
+    return leaf in WAITING and not over

@@ -5,7 +5,7 @@ from math import isnan
 
 from drivers.simulated_module import WATCHDOG_S
 from drivers.simulated_motion import DRIVE_RAMP_MPS2
-from fieldnav.evaluation.faults_expected import TARGETS, Expected
+from fieldnav.evaluation.faults_expected import TARGETS, TOLD_AT_REST, Expected
 from fieldnav.evaluation.faults_injection import BROKEN, PASSES_S, Injection
 from fieldnav.evaluation.faults_rig import Rig
 from fieldnav.evaluation.faults_witness import Moment, Witness
@@ -130,4 +130,5 @@ def _stands(rig: Rig, injection: Injection, witness: Witness) -> str:
         return f"went to {text(rig.leaf)}"
     if injection.fault is FaultKind.DRIVE_RUNAWAY:
         return "" if witness.stands else f"module {BROKEN.value} still runs"
-    return "" if witness.stood_throughout() else "a wheel moved"
+    unsaid = _silent(injection, witness) if injection.fault in TOLD_AT_REST else ""
+    return unsaid or ("" if witness.stood_throughout() else "a wheel moved")

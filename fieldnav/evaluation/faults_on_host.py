@@ -3,6 +3,7 @@
 import time
 
 from drivers.simulated_battery import CAPACITY_AS
+from drivers.thorvald_protocol import Mode
 from fieldnav.evaluation.faults_injection import Injection, broken
 from fieldnav.evaluation.faults_mistake import Mistaken
 from fieldnav.evaluation.faults_rig import Rig
@@ -25,6 +26,7 @@ def of_bus() -> tuple[Injection, ...]:
         Injection(FaultKind.BUS_GARBLED, _garble),
         Injection(FaultKind.BUS_GARBLED, _disturb, called="error frames"),
         Injection(FaultKind.FOREIGN_COMMAND, _take_over),
+        Injection(FaultKind.FOREIGN_COMMAND, _decouple, called="drive mode set by another"),
     )
 
 
@@ -59,6 +61,10 @@ def _disturb(rig: Rig) -> None:
 
 def _take_over(rig: Rig) -> None:
     rig.intruder.commands_until_s = rig.now_s + REMOTE_S
+
+
+def _decouple(rig: Rig) -> None:
+    rig.intruder.mode = Mode.DECOUPLED
 
 
 def _drain(rig: Rig) -> None:

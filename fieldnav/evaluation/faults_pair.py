@@ -97,7 +97,8 @@ class Pair:
             case _:
                 yield from self._until_noticed()
                 yield from self._until_ended(rig.now_s + REACTING_S)
-                yield from self._until(rig.now_s + AFTERWARDS_S)
+                over_s = self.witness.struck_s + self._injection.lasts_s
+                yield from self._until(max(rig.now_s, over_s) + AFTERWARDS_S)
 
     def _until(self, until_s: float) -> Iterator[None]:
         while self._rig.now_s < until_s:

@@ -25,6 +25,7 @@ class ObedientWheels:
 
     ready = True
     taken_over = False
+    stops = None
 
     def __init__(self, errors: Mapping[Wheel, ModuleErrors]) -> None:
         self._errors = errors

@@ -3,13 +3,14 @@
 from collections.abc import Iterable, Mapping
 from contextlib import suppress
 from dataclasses import replace
+from math import inf
 
 from drivers.ports import Camera, Wheels
 from fieldnav.errors import DriverError, FieldnavError, OutputError
 from fieldnav.faults import FaultKind, Reaction, Trouble
 from fieldnav.journal.ledger import Ledger
 from fieldnav.messages import CameraName, Frame, Motion, WheelReport
-from fieldnav.mission.chronicle import Recorded
+from fieldnav.mission.chronicle import APART_S, Recorded
 from fieldnav.mission.course import Course
 from fieldnav.mission.eyes import Eyes
 from fieldnav.mission.gate import Gate, Passed
@@ -60,6 +61,7 @@ class Mission:
         self.course = Course(task, self.travel, journal, observers, ledger, confirmations)
         self._frame_s = robot.timeouts.frame_s
         self._now_s: float | None = None
+        self._reacted_s: dict[FaultKind, float] = {}
 
     @property
     def commanding(self) -> bool:
@@ -111,11 +113,17 @@ class Mission:
             raise FieldnavError(f"the mission broke off: {reason}") from error
 
     def react(self, now_s: float, trouble: Trouble) -> None:
-        """Do what the table of faults declares."""
+        """Do what the table of faults declares; what changes no state is written down once it begins."""
         if trouble.fault is FaultKind.DRIVE_RUNAWAY:  # zero alone is what that wheel does not obey
             with suppress(DriverError):
                 self.wheels.emergency_stop(now_s)
-        self.break_off(now_s, EVENTS[trouble.reaction], str(trouble))
+        event = EVENTS[trouble.reaction]
+        changes = self.course.machine.may(event)
+        self.break_off(now_s, event, str(trouble))
+        last_s = self._reacted_s.get(trouble.fault, -inf)
+        self._reacted_s[trouble.fault] = now_s
+        if not changes and now_s - last_s > APART_S:
+            self.note(now_s, trouble)
 
     def end(self, now_s: float, reason: str) -> None:
         """Stop for good on a person's word, from whatever state."""

@@ -11,7 +11,7 @@ from fieldnav.mission.tape import Tape
 from fieldnav.recording.records import Call
 from states.behaviour import Step
 from states.names import Event, text
-from states.table import FINISHED, LANE_LEAVES
+from states.table import FINISHED, LANE_LEAVES, PAUSED
 
 PUSHED_M = 0.15
 """A robot that has come this much further than its braking takes was moved by somebody. Our choice."""
@@ -92,9 +92,14 @@ class Operating:
             return f"there is nothing to resume in {text(mission.course.machine.leaf)}"
         if mission.wheels.taken_over:
             return "somebody else commands the wheels"
+        if mission.wheels.stops is not None:
+            return f"{mission.wheels.stops}; see to it and resume again, or reset"
         if self._moved_m > self._allowed_m:
             return f"the robot was moved by {self._moved_m:.2f} m meanwhile: reset lets it look for its place"
-        mission.course.confirmations.grant()
+        if mission.course.machine.leaf == PAUSED:
+            mission.course.confirmations.grant()
+        else:
+            mission.course.confirmations.withdraw()  # a fault has come between the question and its answer
         mission.course.go(now_s, Step(event=Event.RESUME, reason=f"resumed {by}"))
         return ""
 

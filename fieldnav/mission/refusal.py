@@ -3,7 +3,6 @@
 from dataclasses import dataclass
 from math import isfinite
 
-from drivers.thorvald_protocol import flag_faults
 from fieldnav.faults import FaultKind, Trouble
 from fieldnav.messages import Twist, Wheel, WheelReport
 from fieldnav.settings.robot import Timeouts
@@ -63,7 +62,6 @@ def _module_refusal(now_s: float, report: WheelReport, limit_s: float) -> Troubl
         if not age_s <= limit_s:
             said = f"module {wheel.value} last reported {age_s:.2f} s ago, limit {limit_s:.2f} s"
             return Trouble(FaultKind.MODULE_LATE, said)
-        if not module.healthy:
-            faults = flag_faults(module.flags) or "emergency telegram"
-            return Trouble(FaultKind.MODULE_UNHEALTHY, f"module {wheel.value} is not healthy: {faults}")
+        if module.trouble is not None:
+            return module.trouble
     return None

@@ -54,7 +54,7 @@ class Hearing:
     def told(self, wheel: Wheel) -> bool:
         """Whether the module has said all that is asked of it."""
         link = self.links[wheel]
-        return link.missing is None and link.version is not None and Kind.HEALTH in self.kinds[wheel]
+        return link.missing is None and link.version is not None
 
     @property
     def complete(self) -> bool:

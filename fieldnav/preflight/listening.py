@@ -22,8 +22,8 @@ TICK_S = 0.02
 def listen(robot: Robot, bus: can.BusABC, watch: Watch) -> Hearing:
     """All that is heard within SILENCE_S and TELLING_S at most.
 
-    No wheel turns: what is sent is zero speed, the start of each node, the host's heartbeat, and the question
-    for the fault flags. Where another host is heard first, nothing at all is sent.
+    No wheel turns: what is sent is zero speed, the start of each node, the mode "drive", the host's
+    heartbeat, and the questions for fault flags and mode. Where another host is heard first, nothing is sent.
     """
     hearing = Hearing(robot)
     ear = Ear(bus, hearing, watch.clock)

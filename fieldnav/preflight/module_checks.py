@@ -5,7 +5,7 @@ from math import degrees
 
 from drivers.module_link import ModuleLink
 from drivers.module_watch import objection
-from drivers.thorvald_protocol import Kind, flag_faults
+from fieldnav.faults import FAULTS
 from fieldnav.messages import ModuleReport, Wheel
 from fieldnav.preflight.finding import Concern, Finding, Verdict, finding_of
 from fieldnav.preflight.hearing import Hearing
@@ -35,17 +35,20 @@ def _concerns(hearing: Hearing, wheel: Wheel, link: ModuleLink) -> Iterator[Conc
         yield Concern(Verdict.WARNING, words, "see to cable and termination")
     if link.rebooted:
         yield Concern(Verdict.FAIL, "it left operation or rebooted while it was watched", SEE_TO_POWER)
-    yield from _readiness(link, kinds, hearing.started)
+    yield from _readiness(link, hearing.started)
+    if link.trouble is not None:
+        words = f"{link.trouble.fault.value}: {link.trouble.said.removeprefix(link.name).lstrip(': ')}"
+        yield Concern(Verdict.FAIL, words, FAULTS[link.trouble.fault].advice)
     if link.report is not None:
-        yield from _condition(link, link.report, Kind.HEALTH in kinds)
+        yield from _condition(link, link.report)
 
 
-def _readiness(link: ModuleLink, kinds: set[Kind], started: bool) -> Iterator[Concern]:
+def _readiness(link: ModuleLink, started: bool) -> Iterator[Concern]:
     """Whether it is up and the one of the robot file."""
     objected = objection(link)
     if objected is not None:
         words = objected.removeprefix(link.name).lstrip(": ")
-        yield Concern(Verdict.FAIL, words, "set the module or the robot file right, or clear its faults")
+        yield Concern(Verdict.FAIL, words, "set the module or the robot file right")
     missing = link.missing
     if missing is not None and not started:
         yield Concern(Verdict.WARNING, "not brought up, since another host is there", "check again alone")
@@ -54,15 +57,10 @@ def _readiness(link: ModuleLink, kinds: set[Kind], started: bool) -> Iterator[Co
         yield Concern(Verdict.FAIL, f"has not told {missing.value}{state}", "see to its script")
     elif link.version is None:
         yield Concern(Verdict.WARNING, "has not told its script's version (TPDO4)", "see to its script")
-    elif Kind.HEALTH not in kinds:
-        yield Concern(Verdict.FAIL, "has not told its health (TPDO3)", "see to its script")
 
 
-def _condition(link: ModuleLink, report: ModuleReport, health: bool) -> Iterator[Concern]:
-    """Whether it is well and stands still."""
-    faults = flag_faults(report.flags) if health else ""
-    if faults or not report.healthy:
-        yield Concern(Verdict.FAIL, faults or "an emergency telegram tells of a fault", "clear its faults")
+def _condition(link: ModuleLink, report: ModuleReport) -> Iterator[Concern]:
+    """Whether it is cool and stands still."""
     if report.temperature_c >= HOT_C:
         verdict = Verdict.FAIL if report.temperature_c >= TOO_HOT_C else Verdict.WARNING
         words = f"{report.temperature_c:.0f} C; {HOT_C} C is hot, {TOO_HOT_C} C too hot"

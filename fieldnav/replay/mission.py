@@ -4,6 +4,7 @@ from collections.abc import Iterable, Sequence
 from contextlib import suppress
 from datetime import datetime
 
+from drivers.module_link import ASKED, Missing
 from drivers.thorvald import ThorvaldWheels
 from fieldnav.errors import FieldnavError
 from fieldnav.faults import FaultKind, Trouble
@@ -45,9 +46,15 @@ class Lines:
 class ReplayedMission:
     """A mission that is done again, call by call; made anew where the run was taken up by another process."""
 
-    def __init__(self, settings: Settings, begun_utc: datetime, observers: Iterable[Observer]) -> None:
-        """Raises FieldnavError for settings that no mission can be made of."""
-        self._settings, self._observers = settings, tuple(observers)
+    def __init__(
+        self,
+        settings: Settings,
+        begun_utc: datetime,
+        observers: Iterable[Observer],
+        asked: frozenset[Missing] = ASKED,
+    ) -> None:
+        """asked: see ModuleLink. Raises FieldnavError for settings that no mission can be made of."""
+        self._settings, self._observers, self._asked = settings, tuple(observers), asked
         self._order = order_of(settings.options)
         self._lines = Lines(begun_utc)
         self._cameras = {name: ReplayedCamera(name) for name in CameraName}
@@ -125,7 +132,7 @@ class ReplayedMission:
             robot,
             task,
             self._cameras,
-            ThorvaldWheels(robot, self.bus, listening=order.dry_run),
+            ThorvaldWheels(robot, self.bus, listening=order.dry_run, asked=self._asked),
             self._lines,
             self._observers,
             confirmations=Confirmations(order.asked),

@@ -20,7 +20,7 @@ from fieldnav.replay.difference import Difference, Kind, Replayed, judged_otherw
 from fieldnav.replay.following import Following
 from fieldnav.replay.mission import ReplayedMission
 from fieldnav.replay.picture_size import check_pictures
-from fieldnav.replay.rounds import Taken, taken
+from fieldnav.replay.rounds import Taken, questions, taken
 from states.names import Event
 from states.table import LEAF_NAMED
 
@@ -64,7 +64,7 @@ class _Replay:
         self._changed = now != then
         self._following, self._notes = Following(), list[Difference]()
         self._watch = CommandWatch(recording.ticks())
-        self._mission = ReplayedMission(now, lines[0].utc, [self._watch])
+        self._mission = ReplayedMission(now, lines[0].utc, [self._watch], questions(recording))
         self._rounds, self._complete = 0, Completeness(self._lines)
         self._brought, self._astray = False, ""
 

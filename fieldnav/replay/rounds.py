@@ -4,10 +4,13 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 from drivers.compression import decoded
+from drivers.module_link import ASKED, Missing
+from drivers.thorvald_protocol import Kind
+from drivers.wire_layout import wire_layout
 from fieldnav.messages import CameraName, Frame
 from fieldnav.recording.piece import MOST_SEQUENCE
 from fieldnav.recording.recording import Recording
-from fieldnav.recording.records import Round, Seen
+from fieldnav.recording.records import Call, Round, Seen
 from fieldnav.recording.stamps import NS_PER_S
 
 KEPT_S = 10.0
@@ -26,6 +29,19 @@ class Taken:
     round: Round
     frames: tuple[Frame, ...]
     lacking: tuple[Seen, ...] = ()
+
+
+def questions(recording: Recording) -> frozenset[Missing]:
+    """What the modules were asked for again and again in the run.
+
+    Recordings of before drive modes were set have no answers: nothing is then missing for want of one.
+    """
+    start = next((each for each in recording.rounds() if each.call is Call.START), None)
+    if start is None:
+        return ASKED
+    sent = [wire_layout().heard(wire.message()) for wire in start.wires if wire.sent]
+    modes = any(telegram is not None and telegram.kind is Kind.MODE for telegram in sent)
+    return ASKED if modes else frozenset()
 
 
 def taken(recording: Recording) -> Iterator[Taken]:

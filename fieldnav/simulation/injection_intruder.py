@@ -2,7 +2,7 @@
 
 import can
 
-from drivers.thorvald_protocol import Kind
+from drivers.thorvald_protocol import Kind, Mode
 from drivers.wire_layout import wire_layout
 
 FOREIGN_ID = 0x555
@@ -18,6 +18,7 @@ class Intruder:
         self._bus, self._sequence = bus, FIRST_SEQUENCE
         self.flood = self.errors = 0
         self.commands_until_s = 0.0
+        self.mode: Mode | None = None  # set once, in every module
         self.nodes: tuple[int, ...] = ()
 
     def step(self, now_s: float) -> None:
@@ -32,6 +33,9 @@ class Intruder:
             self._bus.send(can.Message(timestamp=now_s, is_error_frame=True, is_extended_id=False))
         if now_s < self.commands_until_s:
             self._command(now_s)
+        if self.mode is not None:
+            self._set_mode(now_s, self.mode)
+            self.mode = None
 
     def _command(self, now_s: float) -> None:
         """A remote with its stick in the middle: every wheel at zero."""
@@ -39,3 +43,8 @@ class Intruder:
         for node in self.nodes:
             values = {"Sequence": self._sequence, "DriveSpeed": 0}
             self._bus.send(wire_layout().frame(now_s, node, Kind.DRIVE, values))
+
+    def _set_mode(self, now_s: float, mode: Mode) -> None:
+        for node in self.nodes:
+            values = {"Mode": mode, "ModeRepeated": mode}
+            self._bus.send(wire_layout().frame(now_s, node, Kind.MODE, values))

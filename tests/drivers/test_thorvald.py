@@ -3,8 +3,9 @@ import pytest
 
 from drivers.host_line import LAST_SEQUENCE
 from drivers.thorvald import ThorvaldWheels
-from drivers.thorvald_protocol import Mode, ModuleFlag, Parameter
+from drivers.thorvald_protocol import Mode, Parameter
 from fieldnav.errors import DriverError, SettingsError
+from fieldnav.faults import FaultKind
 from fieldnav.messages import Wheel, WheelSetpoint
 
 FORWARD = WheelSetpoint(0.5, 0.0)
@@ -195,8 +196,11 @@ def test_a_module_with_other_constants_is_refused(bench, parameter, text):
 def test_a_module_that_stands_in_emergency_stop_is_refused_until_a_person_releases_it(bench):
     bench.modules.modules[FL].emergency_stop = True
     bench.wheels.start(0.0)
-    with pytest.raises(DriverError, match="reports faults: emergency stop"):
+    with pytest.raises(DriverError, match=r"front_left \(node 3\): emergency stop") as caught:
         bench.run(0.2)
+    assert caught.value.fault is FaultKind.EMERGENCY_STOP
+    bench.run(0.2)
+    assert not bench.wheels.ready
 
     bench.wheels.release_emergency_stop(bench.now_s)
     bench.wheels.start(bench.now_s)
@@ -219,8 +223,7 @@ def test_the_emergency_stop_is_zero_first_and_then_object_200c(bench):
     assert frames[1].data.hex().upper() == "2F0C200001000000"
     report = bench.report.modules[FL]
     assert report.speed_mps == 0
-    assert not report.healthy
-    assert ModuleFlag.POWER_STAGE_OFF in ModuleFlag(report.flags)
+    assert "power stage off" in str(report.trouble)
 
 
 def test_a_module_that_never_tells_its_constants_is_named(bench):
@@ -252,11 +255,12 @@ def test_garbage_on_the_bus_changes_nothing(bench):
     assert bench.wheels.ready
 
 
-def test_an_unhealthy_flag_is_reported(bench):
+def test_a_fault_that_may_pass_is_reported(bench):
     bench.start()
-    bench.modules.modules[FL].faults = ModuleFlag.STALL.value
+    bench.modules.modules[FL].undervoltage = True
     bench.run(0.2)
 
+    assert bench.wheels.ready
     assert not bench.report.modules[FL].healthy
     assert bench.report.modules[Wheel.REAR_LEFT].healthy
 

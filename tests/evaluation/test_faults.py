@@ -11,7 +11,7 @@ from fieldnav.errors import SettingsError
 from fieldnav.evaluation.faults import FaultsPlan, Played, pairs
 from fieldnav.evaluation.faults_copy import CopyError, in_a_copy
 from fieldnav.evaluation.faults_drive import Unplayed, Wanted, play
-from fieldnav.evaluation.faults_expected import Expected, expected
+from fieldnav.evaluation.faults_expected import TOLD_AT_REST, Expected, expected
 from fieldnav.evaluation.faults_figures import coverage
 from fieldnav.evaluation.faults_injection import Injection
 from fieldnav.evaluation.faults_injections import injections
@@ -37,6 +37,12 @@ PLAYED = (
     Wanted(FaultKind.DRIVE_RUNAWAY.value, "Fault.Latched"),
     Wanted(FaultKind.CAMERA_BLACK.value, "Forward.Follow.Coasting"),
     Wanted(FaultKind.MODULE_SILENT.value, "Resuming"),
+    *(
+        Wanted(f"{FaultKind.EMERGENCY_STOP.value} for 0.1 s", leaf)
+        for leaf in ("Idle", "Checking", "Paused", "Fault.Recoverable", "Fault.Latched")
+    ),
+    Wanted(FaultKind.EMERGENCY_STOP.value, "Fault.Recoverable"),
+    Wanted(FaultKind.MODULE_MODE.value, "Paused"),
 )
 """Pairs that come by within the first quarter of a minute of a mission."""
 NOT_TIMED = frozenset(
@@ -119,6 +125,13 @@ def test_what_a_person_would_drive_on_with_is_expected_to_show_itself_then() -> 
     for leaf in (PAUSED, RECOVERABLE):
         assert expected(leaf, stuck) is Expected.LATCHES
         assert expected(leaf, passing) is Expected.STANDS
+
+
+def test_what_the_modules_tell_at_rest_makes_a_stop_of_a_pause_and_is_written_down_elsewhere() -> None:
+    told = [each for each in INJECTIONS if each.fault in TOLD_AT_REST]
+    assert len(told) > 4
+    assert {expected(PAUSED, each) for each in told} == {Expected.STOPS}
+    assert {expected(leaf, each) for leaf in (RECOVERABLE, LATCHED) for each in told} == {Expected.STANDS}
 
 
 def test_in_short_every_fault_and_every_state_comes_by() -> None:

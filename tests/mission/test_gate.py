@@ -9,7 +9,7 @@ import pytest
 from drivers.can_log import open_virtual_pair
 from drivers.simulated_modules import SimulatedModules
 from drivers.thorvald import ThorvaldWheels
-from drivers.thorvald_protocol import Kind, ModuleFlag
+from drivers.thorvald_protocol import Kind
 from drivers.wire_layout import wire_layout
 from fieldnav.errors import DriverError
 from fieldnav.messages import STANDSTILL, Motion, Steering, Twist, Wheel, WheelReport
@@ -205,13 +205,14 @@ def test_a_twist_that_is_not_finite_sends_zero_at_once_and_says_why(rig, broken,
 
 def test_a_module_with_a_fault_stops_all_and_is_named_with_its_fault(rig):
     rig.run(1.0, AHEAD)
-    rig.modules.modules[FL].faults = (ModuleFlag.STALL | ModuleFlag.DRIVE_ENCODER).value
+    rig.modules.modules[FL].undervoltage = True
     rig.run(0.2, AHEAD)
     rig.sent_speeds()
 
     passed = rig.tick(AHEAD)
 
-    assert passed.reason == "module unhealthy: module front_left is not healthy: stall, drive encoder"
+    said = "module front_left (node 3): controller not healthy, undervoltage, EMCY 3120 (voltage)"
+    assert passed.reason == f"module unhealthy: {said}"
     assert rig.sent_speeds() == {0}
 
 

@@ -19,6 +19,7 @@ class AssumedWheels:
 
     ready = True
     taken_over = False
+    stops = None
 
     def __init__(self, robot: Robot, moved: Moved) -> None:
         self._geometry, self._moved = robot.geometry, moved

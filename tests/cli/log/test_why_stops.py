@@ -73,7 +73,11 @@ CAUSES = {
     "module late": f"{FRONT_LEFT} last reported",
     "module silent": f"{FRONT_LEFT} (node 3) has been silent for",
     "module rebooted": f"{FRONT_LEFT} (node 3) has left operation or rebooted",
-    "module unhealthy": f"{FRONT_LEFT} is not healthy: stall",
+    "emergency stop pressed": "module rear_right (node 1): emergency stop",
+    "emergency stop pressed for 0.1 s": "module rear_right (node 1): emergency stop",
+    "module failed": f"{FRONT_LEFT} (node 3): EMCY 7100",
+    "module unhealthy": f"{FRONT_LEFT} (node 3): ",
+    "module not in drive mode": f"{FRONT_LEFT} (node 3): in mode decoupled, not drive",
     "module not as in the robot file": "HomeCount is 1 in the module but 0 in the robot file",
     "drive runs away": f"{FRONT_LEFT} drives at",
     "steering stuck": FRONT_LEFT,
@@ -82,6 +86,7 @@ CAUSES = {
     "bus flooded": "a second, limit",
     "bus garbled": f"{FRONT_LEFT} (node 3) has said 5 times within a second what cannot be",
     "foreign command": "is commanded by another sender",
+    "drive mode set by another": "is commanded by another sender: RPDO3_Mode Mode 2",
     "battery flat": "charge 5 percent, limit 10",
     "loop late": "two rounds of the loop 0.30 s apart, limit 0.10 s",
     "disk full": "No space left on device",
@@ -96,9 +101,9 @@ def test_the_first_line_names_the_fault_that_struck(name: str, drive: Drive) -> 
 
     first, advice, *_ = drive.why(injection.strike)
 
-    verb = "paused at 0:0" if name == "foreign command" else "stopped at 0:"
+    verb = "paused at 0:0" if injection.fault is FaultKind.FOREIGN_COMMAND else "stopped at 0:"
     assert first.startswith(verb)
-    assert f": {name}: " in first
+    assert f": {injection.fault.value}: " in first
     assert CAUSES[name] in first
     assert advice == f"look at: {FAULTS[injection.fault].advice}"
 

@@ -51,8 +51,8 @@ class BusBench:
         heard = []
         while (frame := self.tap.recv(timeout=0)) is not None:
             heard.append(frame)
-        hosts = [0x000, 0x77F, *range(0x201, 0x205), *range(0x501, 0x505), *range(0x601, 0x605)]
-        return [frame for frame in heard if frame.arbitration_id in hosts]
+        commands = [first + node for first in (0x200, 0x400, 0x500, 0x600) for node in range(1, 5)]
+        return [frame for frame in heard if frame.arbitration_id in (0x000, 0x77F, *commands)]
 
     def _wait(self, seconds: float) -> None:
         until_s = round(self.now_s + seconds, 9)

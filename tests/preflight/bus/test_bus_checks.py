@@ -26,7 +26,7 @@ def test_a_robot_that_is_well_is_told_so_line_by_line(bench):
     assert 0.06 < float(load.rstrip("%")) / 100 < 0.1
 
 
-def test_nothing_moves_and_nothing_is_sent_but_zero_start_questions_and_heartbeats(bench):
+def test_nothing_moves_and_nothing_is_sent_but_zero_start_mode_questions_and_heartbeats(bench):
     bench.check()
 
     sent = bench.sent()
@@ -35,7 +35,9 @@ def test_nothing_moves_and_nothing_is_sent_but_zero_start_questions_and_heartbea
     angles = [frame for frame in sent if frame.arbitration_id in range(0x501, 0x505)]
     assert all(frame.data[4:] == bytes(4) for frame in angles)
     questions = [frame for frame in sent if frame.arbitration_id in range(0x601, 0x605)]
-    assert questions and {frame.data[:3].hex() for frame in questions} == {"401221"}
+    assert questions and {frame.data[:4].hex() for frame in questions} == {"40122100", "40062101"}
+    modes = [frame for frame in sent if frame.arbitration_id in range(0x401, 0x405)]
+    assert modes and all(frame.data == bytes(8) for frame in modes)
     commands = {frame.data[0] for frame in sent if frame.arbitration_id == 0}
     assert commands == {NmtCommand.START}
     assert all(module.motion.speed_mps == 0 for module in bench.modules.modules.values())

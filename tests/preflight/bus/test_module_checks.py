@@ -2,7 +2,7 @@
 
 import pytest
 
-from drivers.thorvald_protocol import Kind, ModuleFlag, NodeState, Parameter
+from drivers.thorvald_protocol import Kind, Mode, ModuleFlag, NodeState, Parameter
 from fieldnav.messages import Wheel
 from fieldnav.preflight.finding import Verdict
 
@@ -55,16 +55,37 @@ def test_fault_flags_fail_in_words(bench):
     found = bench.check()
 
     assert found[LINE].verdict is Verdict.FAIL
-    assert "stall, drive encoder" in found[LINE].figure
+    assert "module failed: drive encoder, stall" in found[LINE].figure
 
 
 def test_an_emergency_stop_that_is_set_fails(bench):
-    bench.modules.modules[FL].emergency_stop = True
+    bench.modules.modules[FL].button_pressed = True
 
     found = bench.check()
 
     assert found[LINE].verdict is Verdict.FAIL
-    assert "reports faults: emergency stop" in found[LINE].figure
+    assert "emergency stop pressed: power stage off, emergency stop" in found[LINE].figure
+    assert "pull it out" in found[LINE].advice
+    assert others_are_well(found)
+
+
+def test_a_module_that_does_not_tell_its_drive_mode_fails(bench):
+    bench.modules.modules[FL].muted = frozenset({Kind.SDO_REPLY})
+
+    found = bench.check()
+
+    assert found[LINE].verdict is Verdict.FAIL
+    assert "has not told its fault flags" in found[LINE].figure
+    assert others_are_well(found)
+
+
+def test_a_module_that_was_left_decoupled_is_set_to_drive(bench):
+    bench.modules.modules[FL].mode = Mode.DECOUPLED
+
+    found = bench.check()
+
+    assert found[LINE].verdict is Verdict.OK
+    assert bench.modules.modules[FL].mode is Mode.DRIVE
 
 
 @pytest.mark.parametrize(
