@@ -152,7 +152,7 @@ class Mission:
         self.course.books.travelled(now_s, self.course.leaf)
         motion = self._eyes.slowed(step.motion, guides) if moving else Motion()
         passed = self._gate.pass_on(now_s, motion, moving, self._eyes.sight(now_s, guides), report)
-        self._watches.sent(now_s, passed)
+        self._watches.sent(now_s, passed if self.wheels.ready else NOTHING_SENT)
         self.course.chronicle.held(now_s, self.course.leaf, passed)
         trouble = self._watches.progress(now_s, passed, report, self.travel.standing)
         if trouble and change is None and moving:
