@@ -8,6 +8,7 @@ from pathlib import Path
 import can
 from can.interfaces.virtual import VirtualBus
 
+from drivers.own_frames import OwnFrames
 from fieldnav.errors import DriverError, OutputError
 from fieldnav.settings.robot import Bus
 
@@ -65,7 +66,7 @@ class LoggedBus(can.BusABC):
         super().__init__(channel=channel)
         self.channel_info = f"{bus.channel_info}, logged"
         self.failure: str | None = None
-        self._bus = bus
+        self._bus, self._own = bus, OwnFrames()
         self._name = path.name
         self._channel = channel
         self._flushed_s: float | None = None
@@ -79,12 +80,13 @@ class LoggedBus(can.BusABC):
 
     def send(self, msg: can.Message, timeout: float | None = None) -> None:
         """Send, then note; a frame that the bus refuses is not in the log."""
-        self._bus.send(msg, timeout)
+        self._own.send(self._bus, msg, timeout)
         msg.is_rx = False
         self._keep(msg)
 
     def recv(self, timeout: float | None = None) -> can.Message | None:
-        msg = self._bus.recv(timeout)
+        """The next frame of another; the host's own, where an adapter gives them back, are noted already."""
+        msg = self._own.next_of_others(self._bus, timeout)
         if msg is not None:
             if self._clock is not None:
                 msg.timestamp = self._clock()
