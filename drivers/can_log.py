@@ -8,6 +8,7 @@ from pathlib import Path
 import can
 from can.interfaces.virtual import VirtualBus
 
+from drivers.can_log_line import LogWriter, shown_channel
 from drivers.own_frames import OwnFrames
 from fieldnav.errors import DriverError, OutputError
 from fieldnav.settings.robot import Bus
@@ -45,11 +46,12 @@ def open_virtual_pair() -> tuple[can.BusABC, can.BusABC]:
 
 
 class LoggedBus(can.BusABC):
-    """A bus that writes each frame it sends or receives, once and in order, by the frames' own stamps.
+    """A bus that writes each frame it sends or receives, once and in the order in which they pass.
 
-    The log is candump's format, which python-can, can-utils, SavvyCAN and cantools read: T was sent by the
-    host, R was received. `channel` is the name it gives the bus; with a `clock`, the one of the host's own
-    stamps, frames are noted when they are taken in. Closes the bus below and the file.
+    T was sent by the host, R was received. `channel` is the name that the log gives the bus. With a `clock`,
+    the one of the host's own stamps, a line has the moment at which its frame passed, also of one that was
+    made earlier in the round; without one, as in simulated time, it has the frame's own stamp. Closes the bus
+    below and the file.
 
     The log never decides whether a frame passes: once it cannot be written it is given up, `failure` says
     why, and the bus goes on. Raises OutputError, with the bus below closed, when it cannot even be begun.
@@ -68,12 +70,11 @@ class LoggedBus(can.BusABC):
         self.failure: str | None = None
         self._bus, self._own = bus, OwnFrames()
         self._name = path.name
-        self._channel = channel
         self._flushed_s: float | None = None
         self._clock = clock
-        self._log: can.CanutilsLogWriter | None = None
+        self._log: LogWriter | None = None
         try:
-            self._log = can.CanutilsLogWriter(path, channel=channel, append=append)
+            self._log = LogWriter(path, channel=shown_channel(channel), append=append)
         except OSError as error:
             self.shutdown()
             raise OutputError(f"{path}: cannot be written: {error.strerror or error}") from error
@@ -82,7 +83,7 @@ class LoggedBus(can.BusABC):
         """Send, then note; a frame that the bus refuses is not in the log."""
         self._own.send(self._bus, msg, timeout)
         msg.is_rx = False
-        self._keep(msg)
+        self._keep(msg, msg.timestamp if self._clock is None else self._clock())
 
     def recv(self, timeout: float | None = None) -> can.Message | None:
         """The next frame of another; the host's own, where an adapter gives them back, are noted already."""
@@ -90,7 +91,7 @@ class LoggedBus(can.BusABC):
         if msg is not None:
             if self._clock is not None:
                 msg.timestamp = self._clock()
-            self._keep(msg)
+            self._keep(msg, msg.timestamp)
         return msg
 
     @property
@@ -110,22 +111,21 @@ class LoggedBus(can.BusABC):
         finally:
             self._close_log()
 
-    def _keep(self, msg: can.Message) -> None:
+    def _keep(self, msg: can.Message, stamp_s: float) -> None:
         """Note a frame; if that fails, give the log up for good."""
         try:
-            self._note(msg)
+            self._note(msg, stamp_s)
         except OSError as error:
             self._give_up(error)
             self._close_log()
 
-    def _note(self, msg: can.Message) -> None:
+    def _note(self, msg: can.Message, stamp_s: float) -> None:
         if self._log is None:
             return
-        msg.channel = self._channel
-        self._log.on_message_received(msg)
-        if self._flushed_s is None or not 0 <= msg.timestamp - self._flushed_s < FLUSH_S:
+        self._log.write(msg, stamp_s)
+        if self._flushed_s is None or not 0 <= stamp_s - self._flushed_s < FLUSH_S:
             self._log.file.flush()
-            self._flushed_s = msg.timestamp
+            self._flushed_s = stamp_s
 
     def _close_log(self) -> None:
         """Close the file; it counts as closed also when its last lines find no room."""
