@@ -1,6 +1,7 @@
 """Opening the CAN bus, and writing every frame that passes to can.log."""
 
 import logging
+import socket
 from collections.abc import Callable
 from itertools import count
 from pathlib import Path
@@ -13,7 +14,9 @@ from drivers.own_frames import OwnFrames
 from fieldnav.errors import DriverError, OutputError
 from fieldnav.settings.robot import Bus
 
-VIRTUAL = "virtual"
+VIRTUAL, SOCKETCAND = "virtual", "socketcand"
+SERVER_S = 2.0
+"""A server on the robot's own network answers within this. Our choice."""
 FLUSH_S = 1.0
 """At most this much of the log, by its own stamps, is lost when the power fails; our choice."""
 
@@ -26,6 +29,7 @@ def open_bus(settings: Bus) -> can.BusABC:
         return VirtualBus(settings.channel, preserve_timestamps=True)
     logging.getLogger("can").setLevel(logging.CRITICAL)  # what matters comes as an error
     try:
+        _reach_server(settings)
         return can.Bus(
             interface=settings.interface,
             channel=settings.channel,
@@ -37,6 +41,13 @@ def open_bus(settings: Bus) -> can.BusABC:
         raise DriverError(
             f"CAN bus cannot be opened: interface {settings.interface}, channel {settings.channel}: {error}"
         ) from error
+
+
+def _reach_server(settings: Bus) -> None:
+    """Raise OSError where a socketcand is not there, which python-can would go on trying for 10 s."""
+    host, port = settings.options.get("host"), settings.options.get("port")
+    if settings.interface == SOCKETCAND and isinstance(host, str) and isinstance(port, int):
+        socket.create_connection((host, port), SERVER_S).close()
 
 
 def open_virtual_pair() -> tuple[can.BusABC, can.BusABC]:

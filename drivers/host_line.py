@@ -7,13 +7,11 @@ import can
 from drivers.bus_watch import BusWatch
 from drivers.module_units import speed_to_per_mille, steering_to_per_mille
 from drivers.own_frames import OwnFrames
+from drivers.reopened_bus import BUS_ERRORS
 from drivers.thorvald_protocol import Kind, NmtCommand, NodeState, RoboteqObject, SdoCommand
 from drivers.wire_layout import NO_NODE, Telegram, wire_layout
 from fieldnav.errors import DriverError
 from fieldnav.settings.robot import Bus, Module
-
-BUS_ERRORS = (can.CanError, OSError)
-"""What a bus raises that is gone or full: python-can's own errors, and those that backends let through."""
 
 LAST_SEQUENCE = 2**31 - 1
 """RPDO1 counts in a signed 32 bit number; after the last comes 0."""

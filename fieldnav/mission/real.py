@@ -110,7 +110,7 @@ def drive(
             operating.take_up(order.resumed)
         pace = Pace(clock)
         requests = (desk, *watchers.requests)
-        driving = Driving(mission, operating, board, bus, requests, pace, clock)
+        driving = Driving(mission, operating, board, bus, requests, pace, clock, gear.reopen_bus)
         stack.callback(sys.setswitchinterval, sys.getswitchinterval())
         sys.setswitchinterval(PATIENCE_S)
         gc.collect()

@@ -4,10 +4,10 @@ from collections.abc import Callable, Mapping
 
 import can
 
-from drivers.host_line import BUS_ERRORS
 from drivers.module_link import ModuleLink
 from drivers.own_frames import OwnFrames
 from drivers.plausibility import plausible
+from drivers.reopened_bus import BUS_ERRORS
 from drivers.thorvald_protocol import Kind
 from drivers.wire_layout import Telegram, wire_layout
 from fieldnav.messages import Wheel
