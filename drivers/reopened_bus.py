@@ -9,6 +9,19 @@ BUS_ERRORS = (can.CanError, OSError)
 """What a bus raises that is gone or full: python-can's own errors, and those that backends let through."""
 
 
+class ClosedBus(can.BusABC):
+    """In place of one that is closed, each backend of which fails in another way."""
+
+    def __init__(self) -> None:
+        super().__init__(channel="closed")
+
+    def send(self, msg: can.Message, timeout: float | None = None) -> None:
+        raise can.CanOperationError("the bus is closed")
+
+    def recv(self, timeout: float | None = None) -> can.Message | None:
+        raise can.CanOperationError("the bus is closed")
+
+
 class ReopenedBus(can.BusABC):
     """The bus that `opener` opens. Nothing is opened again unasked: what it raises once it may go on raising.
 
@@ -16,8 +29,8 @@ class ReopenedBus(can.BusABC):
     """
 
     def __init__(self, opener: Callable[[], can.BusABC]) -> None:
-        self._opener, self._bus = opener, opener()
-        self._lost = False
+        self._opener, self._lost = opener, False
+        self._bus: can.BusABC = opener()
         super().__init__(channel=self._bus.channel_info)
         self.channel_info = self._bus.channel_info
 
@@ -41,6 +54,7 @@ class ReopenedBus(can.BusABC):
             return
         with suppress(*BUS_ERRORS):
             self._bus.shutdown()  # many an adapter is opened only once at a time
+        self._bus = ClosedBus()
         self._bus = self._opener()
         self._lost = False
 
