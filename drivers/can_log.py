@@ -11,6 +11,7 @@ from can.interfaces.virtual import VirtualBus
 
 from drivers.can_log_line import LogWriter, shown_channel
 from drivers.own_frames import OwnFrames
+from drivers.reopened_bus import said
 from fieldnav.errors import DriverError, OutputError
 from fieldnav.settings.robot import Bus
 
@@ -38,9 +39,8 @@ def open_bus(settings: Bus) -> can.BusABC:
             **settings.options,  # type: ignore[arg-type]  # of the interface, which knows their kinds
         )
     except (can.CanError, OSError, ValueError, TypeError, ImportError, NotImplementedError) as error:
-        raise DriverError(
-            f"CAN bus cannot be opened: interface {settings.interface}, channel {settings.channel}: {error}"
-        ) from error
+        bus = f"interface {settings.interface}, channel {settings.channel}"
+        raise DriverError(f"CAN bus cannot be opened: {bus}: {said(error)}") from error
 
 
 def _reach_server(settings: Bus) -> None:

@@ -7,7 +7,7 @@ import can
 from drivers.bus_watch import BusWatch
 from drivers.module_units import speed_to_per_mille, steering_to_per_mille
 from drivers.own_frames import OwnFrames
-from drivers.reopened_bus import BUS_ERRORS
+from drivers.reopened_bus import BUS_ERRORS, said
 from drivers.thorvald_protocol import Kind, NmtCommand, NodeState, RoboteqObject, SdoCommand
 from drivers.wire_layout import NO_NODE, Telegram, wire_layout
 from fieldnav.errors import DriverError
@@ -83,10 +83,10 @@ class HostLine:
         try:
             self._own.send(self._bus, frame)
         except BUS_ERRORS as error:
-            raise DriverError(f"CAN bus cannot be written: {error}") from error
+            raise DriverError(f"CAN bus cannot be written: {said(error)}") from error
 
     def _next_frame(self) -> can.Message | None:
         try:
             return self._own.next_of_others(self._bus, timeout=0)
         except BUS_ERRORS as error:
-            raise DriverError(f"CAN bus cannot be read: {error}") from error
+            raise DriverError(f"CAN bus cannot be read: {said(error)}") from error

@@ -9,6 +9,12 @@ BUS_ERRORS = (can.CanError, OSError)
 """What a bus raises that is gone or full: python-can's own errors, and those that backends let through."""
 
 
+def said(error: Exception) -> str:
+    """What a backend's error says, in one line; python-can's socketcand has a traceback in its text."""
+    text, _, _ = str(error).partition("Traceback (")
+    return " ".join(text.split()) or type(error).__name__
+
+
 class ClosedBus(can.BusABC):
     """In place of one that is closed, each backend of which fails in another way."""
 

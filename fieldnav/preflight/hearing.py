@@ -7,7 +7,7 @@ import can
 from drivers.module_link import ModuleLink
 from drivers.own_frames import OwnFrames
 from drivers.plausibility import plausible
-from drivers.reopened_bus import BUS_ERRORS
+from drivers.reopened_bus import BUS_ERRORS, said
 from drivers.thorvald_protocol import Kind
 from drivers.wire_layout import Telegram, wire_layout
 from fieldnav.messages import Wheel
@@ -102,14 +102,14 @@ class Ear(can.BusABC):
         try:
             self._own.send(self._bus, msg, timeout)
         except BUS_ERRORS as error:
-            self._hearing.failure = f"cannot be written: {error}"
+            self._hearing.failure = f"cannot be written: {said(error)}"
             raise
 
     def recv(self, timeout: float | None = None) -> can.Message | None:
         try:
             frame = self._own.next_of_others(self._bus, timeout)
         except BUS_ERRORS as error:
-            self._hearing.failure = f"cannot be read: {error}"
+            self._hearing.failure = f"cannot be read: {said(error)}"
             raise
         if frame is not None:
             self._hearing.take(frame, self._clock())

@@ -32,7 +32,11 @@ class Pulled(VirtualBus):
     def recv(self, timeout: float | None = None) -> can.Message | None:
         if not self._open:
             raise ValueError("file descriptor cannot be a negative integer (-1)")
-        return None if self.lost else super().recv(timeout)
+        if self.lost:
+            raise can.CanError(
+                "Failed to receive: Broken pipe  Traceback (most recent call last):\n  File x\n"
+            )
+        return super().recv(timeout)
 
 
 class Adapter:
@@ -105,6 +109,7 @@ def test_a_reset_opens_a_bus_again_that_was_lost_and_the_mission_goes_on(scene: 
     scene.rig.run(1.0)
     assert scene.rig.mission.course.machine.leaf == LATCHED
     assert "Broken pipe" in scene.rig.lines()[-1].reason
+    assert "Traceback" not in scene.rig.lines()[-1].reason
     scene.adapter.plugged = True
 
     answer = scene.reset()
