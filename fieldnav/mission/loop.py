@@ -130,6 +130,7 @@ class Mission:
         """Stop the wheels, then go to a state that stands and say why."""
         self.wheels.stop(now_s)
         self._gate.halted()
+        self._watches.sent(now_s, NOTHING_SENT)
         self.travel.measure(now_s, WheelReport())  # what the wheels do is no longer known
         step = Step(event=event, reason=reason)
         change = self.course.go(now_s, step) if self.course.machine.may(event) else None
