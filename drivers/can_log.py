@@ -1,6 +1,7 @@
 """Opening the CAN bus, and writing every frame that passes to can.log."""
 
 import logging
+import socket
 from collections.abc import Callable
 from itertools import count
 from pathlib import Path
@@ -8,11 +9,16 @@ from pathlib import Path
 import can
 from can.interfaces.virtual import VirtualBus
 
+from drivers.can_log_line import LogWriter, shown_channel
+from drivers.own_frames import OwnFrames
+from drivers.reopened_bus import said
 from fieldnav.errors import DriverError, OutputError
 from fieldnav.journal.files import private
 from fieldnav.settings.robot import Bus
 
-VIRTUAL = "virtual"
+VIRTUAL, SOCKETCAND = "virtual", "socketcand"
+SERVER_S = 2.0
+"""A server on the robot's own network answers within this. Our choice."""
 FLUSH_S = 1.0
 """At most this much of the log, by its own stamps, is lost when the power fails; our choice."""
 
@@ -25,6 +31,7 @@ def open_bus(settings: Bus) -> can.BusABC:
         return VirtualBus(settings.channel, preserve_timestamps=True)
     logging.getLogger("can").setLevel(logging.CRITICAL)  # what matters comes as an error
     try:
+        _reach_server(settings)
         return can.Bus(
             interface=settings.interface,
             channel=settings.channel,
@@ -33,9 +40,15 @@ def open_bus(settings: Bus) -> can.BusABC:
             **settings.options,  # type: ignore[arg-type]  # of the interface, which knows their kinds
         )
     except (can.CanError, OSError, ValueError, TypeError, ImportError, NotImplementedError) as error:
-        raise DriverError(
-            f"CAN bus cannot be opened: interface {settings.interface}, channel {settings.channel}: {error}"
-        ) from error
+        bus = f"interface {settings.interface}, channel {settings.channel}"
+        raise DriverError(f"CAN bus cannot be opened: {bus}: {said(error)}") from error
+
+
+def _reach_server(settings: Bus) -> None:
+    """Raise OSError where a socketcand is not there, which python-can would go on trying for 10 s."""
+    host, port = settings.options.get("host"), settings.options.get("port")
+    if settings.interface == SOCKETCAND and isinstance(host, str) and isinstance(port, int):
+        socket.create_connection((host, port), SERVER_S).close()
 
 
 def open_virtual_pair() -> tuple[can.BusABC, can.BusABC]:
@@ -45,11 +58,12 @@ def open_virtual_pair() -> tuple[can.BusABC, can.BusABC]:
 
 
 class LoggedBus(can.BusABC):
-    """A bus that writes each frame it sends or receives, once and in order, by the frames' own stamps.
+    """A bus that writes each frame it sends or receives, once and in the order in which they pass.
 
-    The log is candump's format, which python-can, can-utils, SavvyCAN and cantools read: T was sent by the
-    host, R was received. `channel` is the name it gives the bus; with a `clock`, the one of the host's own
-    stamps, frames are noted when they are taken in. Closes the bus below and the file.
+    T was sent by the host, R was received. `channel` is the name that the log gives the bus. With a `clock`,
+    the one of the host's own stamps, a line has the moment at which its frame passed, also of one that was
+    made earlier in the round; without one, as in simulated time, it has the frame's own stamp. Closes the bus
+    below and the file.
 
     The log never decides whether a frame passes: once it cannot be written it is given up, `failure` says
     why, and the bus goes on. Raises OutputError, with the bus below closed, when it cannot even be begun.
@@ -66,31 +80,31 @@ class LoggedBus(can.BusABC):
         super().__init__(channel=channel)
         self.channel_info = f"{bus.channel_info}, logged"
         self.failure: str | None = None
-        self._bus = bus
+        self._bus, self._own = bus, OwnFrames()
         self._name = path.name
-        self._channel = channel
         self._flushed_s: float | None = None
         self._clock = clock
-        self._log: can.CanutilsLogWriter | None = None
+        self._log: LogWriter | None = None
         try:
             file = open(path, "a" if append else "w", encoding="ascii", opener=private)  # noqa: SIM115
-            self._log = can.CanutilsLogWriter(file, channel=channel, append=append)
+            self._log = LogWriter(file, channel=shown_channel(channel), append=append)
         except OSError as error:
             self.shutdown()
             raise OutputError(f"{path}: cannot be written: {error.strerror or error}") from error
 
     def send(self, msg: can.Message, timeout: float | None = None) -> None:
         """Send, then note; a frame that the bus refuses is not in the log."""
-        self._bus.send(msg, timeout)
+        self._own.send(self._bus, msg, timeout)
         msg.is_rx = False
-        self._keep(msg)
+        self._keep(msg, msg.timestamp if self._clock is None else self._clock())
 
     def recv(self, timeout: float | None = None) -> can.Message | None:
-        msg = self._bus.recv(timeout)
+        """The next frame of another; the host's own, where an adapter gives them back, are noted already."""
+        msg = self._own.next_of_others(self._bus, timeout)
         if msg is not None:
             if self._clock is not None:
                 msg.timestamp = self._clock()
-            self._keep(msg)
+            self._keep(msg, msg.timestamp)
         return msg
 
     @property
@@ -110,22 +124,21 @@ class LoggedBus(can.BusABC):
         finally:
             self._close_log()
 
-    def _keep(self, msg: can.Message) -> None:
+    def _keep(self, msg: can.Message, stamp_s: float) -> None:
         """Note a frame; if that fails, give the log up for good."""
         try:
-            self._note(msg)
+            self._note(msg, stamp_s)
         except OSError as error:
             self._give_up(error)
             self._close_log()
 
-    def _note(self, msg: can.Message) -> None:
+    def _note(self, msg: can.Message, stamp_s: float) -> None:
         if self._log is None:
             return
-        msg.channel = self._channel
-        self._log.on_message_received(msg)
-        if self._flushed_s is None or not 0 <= msg.timestamp - self._flushed_s < FLUSH_S:
+        self._log.write(msg, stamp_s)
+        if self._flushed_s is None or not 0 <= stamp_s - self._flushed_s < FLUSH_S:
             self._log.file.flush()
-            self._flushed_s = msg.timestamp
+            self._flushed_s = stamp_s
 
     def _close_log(self) -> None:
         """Close the file; it counts as closed also when its last lines find no room."""

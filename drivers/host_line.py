@@ -6,13 +6,12 @@ import can
 
 from drivers.bus_watch import BusWatch
 from drivers.module_units import speed_to_per_mille, steering_to_per_mille
+from drivers.own_frames import OwnFrames
+from drivers.reopened_bus import BUS_ERRORS, said
 from drivers.thorvald_protocol import Kind, Mode, NmtCommand, NodeState, RoboteqObject, SdoCommand
 from drivers.wire_layout import NO_NODE, Telegram, wire_layout
 from fieldnav.errors import DriverError
 from fieldnav.settings.robot import Bus, Module
-
-BUS_ERRORS = (can.CanError, OSError)
-"""What a bus raises that is gone or full: python-can's own errors, and those that backends let through."""
 
 LAST_SEQUENCE = 2**31 - 1
 """RPDO1 counts in a signed 32 bit number; after the last comes 0."""
@@ -22,13 +21,13 @@ class HostLine:
     """What the host says to the modules. Every method raises DriverError when the bus refuses."""
 
     def __init__(self, bus: can.BusABC, settings: Bus) -> None:
-        self._bus = bus
+        self._bus, self._own = bus, OwnFrames()
         self._watch = BusWatch(settings)
         self._layout = wire_layout()
         self.sequence = 0
 
     def received(self, now_s: float) -> Iterator[Telegram]:
-        """The telegrams that wait on the bus, without waiting; frames of another layout are left out.
+        """The telegrams of others that wait on the bus, without waiting; other layouts' frames are left out.
 
         A telegram without values could not be read. In a flood no more are taken than can be looked at.
         """
@@ -79,13 +78,14 @@ class HostLine:
         self._bus.shutdown()
 
     def _send(self, now_s: float, node: int, kind: Kind, **values: float) -> None:
+        frame = self._layout.frame(now_s, node, kind, values)
         try:
-            self._bus.send(self._layout.frame(now_s, node, kind, values))
+            self._own.send(self._bus, frame)
         except BUS_ERRORS as error:
-            raise DriverError(f"CAN bus cannot be written: {error}") from error
+            raise DriverError(f"CAN bus cannot be written: {said(error)}") from error
 
     def _next_frame(self) -> can.Message | None:
         try:
-            return self._bus.recv(timeout=0)
+            return self._own.next_of_others(self._bus, timeout=0)
         except BUS_ERRORS as error:
-            raise DriverError(f"CAN bus cannot be read: {error}") from error
+            raise DriverError(f"CAN bus cannot be read: {said(error)}") from error

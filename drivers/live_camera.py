@@ -18,6 +18,9 @@ from fieldnav.settings.shown_source import shown
 
 CLOSING_S = 3.0
 """So long closing waits for a source that is about to give a frame; longer than OpenCV waits for one."""
+MAX_MISFITS = 15
+"""Pictures of the wrong size in a row, a second's, after which the source is opened again: OpenCV scales all
+pictures of a stream to the size of its first, and would never show that the stream is right again."""
 
 
 class Device(Protocol):
@@ -66,7 +69,7 @@ class LiveCamera:
         self._name, self._settings, self._clock, self._pauses = name, settings, clock, pauses
         self._opener, self._source = opener, shown(settings.source)
         self._newest: Frame | Trouble | None = None  # one value, so that a reader never sees half of a change
-        self._sequence = 0
+        self._sequence = self._misfits = 0
         self._closing = Event()
         self._thread = Thread(target=self._run, args=(opener(),), name=f"{name.value} camera", daemon=True)
         self._thread.start()
@@ -110,7 +113,7 @@ class LiveCamera:
             device = self._opened_again()
 
     def _take_all(self, device: Device) -> None:
-        """Take frames until there are no more or the camera is closed, and give the device back."""
+        """Take frames until there are no more that fit or the camera is closed, and give the device back."""
         try:
             while not self._closing.is_set():
                 try:
@@ -137,8 +140,12 @@ class LiveCamera:
         try:
             check_size(taken, self._settings)
         except DriverError as error:
+            self._misfits += 1
             self._newest = Trouble(error.fault, str(error))
+            if self._misfits % MAX_MISFITS == 0:
+                raise
         else:
+            self._misfits = 0
             frame = Frame(self._name, self._sequence, stamp_s, taken)
             self._newest = frame if self._quality is None else compressed(frame, self._quality)
 
@@ -150,5 +157,7 @@ class LiveCamera:
             return None
 
     def _fail(self, error: Exception) -> None:
+        if isinstance(error, DriverError) and error.fault is FaultKind.CAMERA_SIZE:
+            return  # it has been told, and is to be told until it is mended
         said = str(error) if isinstance(error, DriverError) else f"{self._source}: cannot be read"
         self._newest = Trouble(FaultKind.CAMERA_UNPLUGGED, f"{said}; it is opened again and again")

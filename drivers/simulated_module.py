@@ -1,7 +1,8 @@
 """One simulated wheel module: what it obeys, as a CANopen node.
 
-The fault switches (`silent`, `muted`, `steering_stuck`, `blocked`, `runaway_mps`, `faults`, `undervoltage`)
-and `reboot` break a module as real ones break; `button_pressed` is the robot's emergency stop.
+The fault switches (`silent`, `muted`, `steering_stuck`, `blocked`, `drive_share`, `runaway_mps`, `faults`,
+`undervoltage`) and `reboot` break a module as real ones break; `button_pressed` is the robot's emergency
+stop.
 """
 
 from collections.abc import Mapping
@@ -61,6 +62,7 @@ class SimulatedModule:
         self.silent = False
         self.muted: frozenset[Kind] = frozenset()  # telegrams that it no longer sends
         self.steering_stuck = self.blocked = False
+        self.drive_share = 1.0  # of its speed set-point that it drives, and reports
         self.runaway_mps: float | None = None  # so it drives whatever it is told, but for the emergency stop
         self.emergency_stop = False  # by object 200C
         self.button_pressed = self.undervoltage = False
@@ -108,7 +110,7 @@ class SimulatedModule:
         wanted_rad = self._wanted_rad if driving else None
         if running and self.mode is Mode.HOME:
             wanted_rad = HOME_RAD
-        wanted_mps = self._wanted_mps if driving else 0.0
+        wanted_mps = self._wanted_mps * self.drive_share if driving else 0.0
         if self.runaway_mps is not None and not self.stopped:
             wanted_mps = self.runaway_mps
         self.motion.advance(dt_s, wanted_mps, None if self.steering_stuck else wanted_rad)

@@ -4,7 +4,7 @@ from drivers.thorvald_protocol import Kind
 from drivers.wire_layout import Telegram
 
 COMMANDS = frozenset({Kind.DRIVE, Kind.STEER, Kind.MODE, Kind.SET_UP, Kind.NMT})
-"""Telegrams that only a host sends; those of this host never come back to it from its bus."""
+"""Telegrams that only a host sends; this host's own are left out where an adapter gives them back."""
 QUIET_S = 1.0
 """So long nothing must come before the wheels are this host's again; twice the modules' slowest watchdog."""
 

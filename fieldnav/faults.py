@@ -39,6 +39,7 @@ class FaultKind(Enum):
     MODULE_OTHER = "module not as in the robot file"
     STEERING_STUCK = "steering stuck"
     DRIVE_RUNAWAY = "drive runs away"
+    DRIVE_WEAK = "drive does not follow"
     BUS_OFF = "bus off"
     BUS_FLOODED = "bus flooded"
     BUS_GARBLED = "bus garbled"
@@ -147,6 +148,11 @@ FAULTS: dict[FaultKind, Declared] = {
         Reaction.LATCH,
         "a wheel turns faster than it was told; the controllers' emergency stop is set as well",
         "press the emergency stop; do not drive before the module is mended",
+    ),
+    FaultKind.DRIVE_WEAK: Declared(
+        Reaction.LATCH,
+        "a wheel falls behind its set-point, or does not fit what the other wheels do",
+        "see to the drive's fuse, motor and brake; free the wheel",
     ),
     FaultKind.BUS_OFF: Declared(
         Reaction.LATCH,

@@ -138,6 +138,7 @@ def _drive(
     from fieldnav.cli.frames import quiet_videos  # noqa: PLC0415 - see _broken_off
     from fieldnav.cli.mission_report import reported  # noqa: PLC0415
     from fieldnav.cli.run_terminal import terminal  # noqa: PLC0415
+    from fieldnav.journal.refused import begun as has_begun  # noqa: PLC0415
     from fieldnav.mission.outset import begun, cleared, silenced  # noqa: PLC0415
     from fieldnav.mission.pace import RunClock  # noqa: PLC0415
     from fieldnav.mission.real import drive  # noqa: PLC0415
@@ -157,4 +158,5 @@ def _drive(
             with terminal(order.lanes, quiet) as watchers:
                 return directory, drive(order, gear, directory, begun_utc, clock, watchers)
         finally:
-            reported(directory)
+            if has_begun(directory):
+                reported(directory)

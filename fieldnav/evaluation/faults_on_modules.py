@@ -12,6 +12,8 @@ RUNAWAY_MPS = 1.0
 """Twice the working speed."""
 PRESSED_S = (0.1, 1.0)
 """So long the emergency stop is pressed, beside for ever: as one health telegram takes, and as ten."""
+WEAK_SHARE = 0.6
+"""Of its set-point, which a drive that drags along still reaches."""
 LATE = frozenset({FaultKind.MODULE_LATE})
 """What a module that falls silent is at first."""
 
@@ -31,6 +33,8 @@ def of_modules() -> tuple[Injection, ...]:
         Injection(FaultKind.MODULE_OTHER, _change_constants),
         Injection(FaultKind.STEERING_STUCK, _stick),
         Injection(FaultKind.DRIVE_RUNAWAY, _run_away),
+        Injection(FaultKind.DRIVE_WEAK, partial(_weaken, share=0.0), called="drive dead"),
+        Injection(FaultKind.DRIVE_WEAK, partial(_weaken, share=WEAK_SHARE), called="drive weak"),
         Injection(FaultKind.STANDS_STILL, _block),
     )
 
@@ -97,6 +101,10 @@ def _stick(rig: Rig) -> None:
 
 def _run_away(rig: Rig) -> None:
     broken(rig).runaway_mps = RUNAWAY_MPS
+
+
+def _weaken(rig: Rig, share: float) -> None:
+    broken(rig).drive_share = share
 
 
 def _block(rig: Rig) -> None:

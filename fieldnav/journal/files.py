@@ -1,8 +1,10 @@
 """Writing a whole file or none of it, and whole lines or none of them; for their owner alone to read."""
 
+import errno
 import fcntl
 import os
 import stat
+import sys
 import tempfile
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
@@ -76,7 +78,12 @@ def alone_in(folder: Path) -> Iterator[None]:
 
 
 def append_line(file: FileIO, line: bytes, sync: Callable[[], None]) -> None:
-    """Append a line to an unbuffered file and sync it. Raises OSError; the file then ends as before."""
+    """Append a line to an unbuffered file and sync it. Raises OSError; the file then ends as before.
+
+    A file that was deleted takes lines as before, but nobody can read them any more: it is an error too.
+    """
+    if os.fstat(file.fileno()).st_nlink == 0:
+        raise OSError(errno.ENOENT, "it was deleted")
     content, whole_lines = line + b"\n", file.seek(0, os.SEEK_END)
     try:
         while content:
@@ -86,6 +93,17 @@ def append_line(file: FileIO, line: bytes, sync: Callable[[], None]) -> None:
         with suppress(OSError):  # the disk is failing already; a torn line would hide the ones after it
             file.truncate(whole_lines)
         raise
+
+
+@contextmanager
+def first_failure_told() -> Iterator[None]:
+    """For what is written at the end of a run: where the run has failed, that it cannot be is not told."""
+    failed = sys.exception() is not None
+    try:
+        yield
+    except OutputError:
+        if not failed:
+            raise
 
 
 def unwritable(path: Path, error: OSError) -> OutputError:

@@ -1,8 +1,9 @@
 """The loop on the wall clock: rounds, what a person asks meanwhile, and how it ends."""
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 
 from drivers.can_log import LoggedBus
+from fieldnav.errors import DriverError
 from fieldnav.faults import FaultKind, Trouble
 from fieldnav.mission.interruption import Interruption
 from fieldnav.mission.loop import REST_S, Mission
@@ -29,9 +30,12 @@ class Driving:
         requests: Sequence[Requests],
         pace: Pace,
         clock: RunClock,
+        reopen_bus: Callable[[], None] = lambda: None,
     ) -> None:
+        """reopen_bus: opens the bus again if it was lost; raises DriverError."""
         self._mission, self._operating, self._board, self._bus = mission, operating, board, bus
         self._requests, self._pace, self._clock = requests, pace, clock
+        self._reopen_bus = reopen_bus
         self._stopped = False
 
     def run(self, interruption: Interruption, once: bool) -> None:
@@ -70,8 +74,16 @@ class Driving:
             case Command.RESUME:
                 refused = self._operating.resume(now_s, by)
             case Command.RESET:
-                refused = self._operating.reset(now_s, by)
+                refused = self._reset(now_s, by)
         request.reply(not refused, refused or text(self._mission.course.machine.leaf))
+
+    def _reset(self, now_s: float, by: str) -> str:
+        """A reset begins with the checks, for which the bus must be there again."""
+        try:
+            self._reopen_bus()
+        except DriverError as error:
+            return str(error)
+        return self._operating.reset(now_s, by)
 
     def _stop(self, now_s: float, reason: str) -> None:
         self._stopped = True

@@ -70,29 +70,18 @@ class Gate:
         self._passed_s = now_s
         present = {wheel: module.steering_rad for wheel, module in report.modules.items()}
         refused = refusal(now_s, motion.twist, sight, report, self._timeouts) if moving else None
-        if refused is not None:
+        if refused is not None or not moving:
             return self._halt(now_s, present, refused)
-        if not moving:
-            return self._rest(now_s, dt_s, present)
         return self._drive(now_s, dt_s, motion, present, report)
 
     def halted(self) -> None:
         """The wheels have been told to stop without the gate: what follows begins from standstill."""
         self._twist, self._error_rad = STANDSTILL, inf
 
-    def _halt(self, now_s: float, present: Mapping[Wheel, float], refused: Trouble) -> Passed:
+    def _halt(self, now_s: float, present: Mapping[Wheel, float], refused: Trouble | None) -> Passed:
         """Zero at once; the modules' own ramp makes it smooth."""
         self._twist, self._error_rad = STANDSTILL, inf
         return self._send(now_s, Motion(STANDSTILL, self._steering), self._standing(present), refused)
-
-    def _rest(self, now_s: float, dt_s: float, present: Mapping[Wheel, float]) -> Passed:
-        """Come to rest within the limits, at once if a module is silent; then stand, wheels as they are."""
-        self._error_rad = inf
-        ramped = limit(Motion(STANDSTILL, self._steering), self._twist, dt_s, self._limits)
-        if ramped.twist == STANDSTILL or len(present) < len(Wheel):
-            self._twist = STANDSTILL
-            return self._send(now_s, Motion(STANDSTILL, self._steering), self._standing(present))
-        return self._send_motion(now_s, dt_s, ramped, present)
 
     def _drive(
         self, now_s: float, dt_s: float, motion: Motion, present: Mapping[Wheel, float], report: WheelReport

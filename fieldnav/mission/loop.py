@@ -138,6 +138,7 @@ class Mission:
         """Stop the wheels, then go to a state that stands and say why."""
         self.wheels.stop(now_s)
         self._gate.halted()
+        self._watches.sent(now_s, NOTHING_SENT)
         self.travel.measure(now_s, WheelReport())  # what the wheels do is no longer known
         step = Step(event=event, reason=reason)
         change = self.course.go(now_s, step) if self.course.machine.may(event) else None
@@ -160,7 +161,7 @@ class Mission:
         self.course.books.travelled(now_s, self.course.leaf)
         motion = self._eyes.slowed(step.motion, guides) if moving else Motion()
         passed = self._gate.pass_on(now_s, motion, moving, self._eyes.sight(now_s, guides), report)
-        self._watches.sent(now_s, passed)
+        self._watches.sent(now_s, passed if self.wheels.ready else NOTHING_SENT)
         self.course.chronicle.held(now_s, self.course.leaf, passed)
         trouble = self._watches.progress(now_s, passed, report, self.travel.standing)
         if trouble and change is None and moving:

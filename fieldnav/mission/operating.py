@@ -16,7 +16,7 @@ from states.table import FINISHED, LANE_LEAVES, PAUSED
 PUSHED_M = 0.15
 """A robot that has come this much further than its braking takes was moved by somebody. Our choice."""
 SLOWEST_BRAKING_MPS2 = 0.6
-"""Slower than the gate's ramp by a quarter. Our choice."""
+"""Slower by a fifth than any module that is not taken for one that runs away. Our choice."""
 
 
 class Operating:

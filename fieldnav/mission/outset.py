@@ -8,6 +8,7 @@ from pathlib import Path
 
 from drivers.listening_bus import ListeningBus
 from fieldnav.journal.directory import RunDirectory
+from fieldnav.journal.refused import removed_if_refused
 from fieldnav.journal.resolved import write_settings
 from fieldnav.mission.real import Order
 from fieldnav.mission.taking_up import BrokenOff
@@ -68,5 +69,6 @@ def begun(
         "dry_run": order.dry_run,
         "confirm": ", ".join(sorted(event.value for event in order.confirm)),
     }
-    write_settings(directory.settings, order.crop, order.robot, options=options)
+    with removed_if_refused(directory):
+        write_settings(directory.settings, order.crop, order.robot, options=options)
     return directory, utc

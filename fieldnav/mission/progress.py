@@ -3,8 +3,8 @@
 from math import hypot
 
 from fieldnav.faults import FaultKind, Trouble
+from fieldnav.mission.drive_watch import since
 from fieldnav.mission.gate import Passed
-from fieldnav.mission.wheel_watch import since
 
 REFUSED_LIMIT_S = 2.0
 """The gate may refuse to move for so long before it counts as a fault. Our choice."""

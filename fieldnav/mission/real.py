@@ -12,8 +12,10 @@ import cv2
 from drivers.can_log import LoggedBus
 from drivers.thorvald import ThorvaldWheels
 from fieldnav.journal.directory import RunDirectory
+from fieldnav.journal.files import first_failure_told
 from fieldnav.journal.journal import Journal
 from fieldnav.journal.ledger import Booking, Ledger
+from fieldnav.journal.refused import removed_if_refused
 from fieldnav.journal.summary import Headland, Summary, write_summary
 from fieldnav.messages import Side
 from fieldnav.mission.driving import Driving
@@ -80,7 +82,7 @@ def drive(
     """
     assert gear.bus, "the pre-flight refuses without a bus"
     cv2.setNumThreads(1)
-    with ExitStack() as stack:
+    with removed_if_refused(directory), ExitStack() as stack:
         interruption = stack.enter_context(Interruption())
         ledger = stack.enter_context(Ledger(directory.ledger))
         desk = stack.enter_context(Desk.open(directory.path.name))
@@ -110,7 +112,7 @@ def drive(
             operating.take_up(order.resumed)
         pace = Pace(clock)
         requests = (desk, *watchers.requests)
-        driving = Driving(mission, operating, board, bus, requests, pace, clock)
+        driving = Driving(mission, operating, board, bus, requests, pace, clock, gear.reopen_bus)
         stack.callback(sys.setswitchinterval, sys.getswitchinterval())
         sys.setswitchinterval(PATIENCE_S)
         gc.collect()
@@ -120,5 +122,6 @@ def drive(
         finally:
             figures.warn(*tape.end())
             summary = figures.summary(clock(), Headland(), None, pace.health())
-            write_summary(directory.summary, summary)
+            with first_failure_told():
+                write_summary(directory.summary, summary)
         return summary

@@ -17,8 +17,10 @@ from fieldnav.errors import DriverError
 from fieldnav.evaluation.path import PathObserver
 from fieldnav.evaluation.truth import headland, judge
 from fieldnav.journal.directory import RunDirectory
+from fieldnav.journal.files import first_failure_told
 from fieldnav.journal.journal import Journal
 from fieldnav.journal.ledger import Ledger
+from fieldnav.journal.refused import removed_if_refused
 from fieldnav.journal.resolved import DRIVEN_UTC, write_settings
 from fieldnav.journal.summary import Summary, write_summary
 from fieldnav.messages import CameraName, Side
@@ -93,8 +95,8 @@ def simulate(
     directory = RunDirectory.create(run.parent, run.field.name, driven)
     options = {"lanes": run.lanes, "side": run.side.value, "video": run.video, "realtime": run.realtime}
     options |= {DRIVEN_UTC: driven.isoformat(timespec="seconds")}
-    write_settings(directory.settings, run.crop, run.robot, run.field, options)
-    with ExitStack() as stack:
+    with removed_if_refused(directory), ExitStack() as stack:
+        write_settings(directory.settings, run.crop, run.robot, run.field, options)
         host, far_end = open_virtual_pair()
         stack.callback(far_end.shutdown)
         tape = stack.enter_context(taping(directory, run.robot, EPOCH, run.record, waits=True))
@@ -126,8 +128,9 @@ def simulate(
             wall_s = time.perf_counter() - started
             figures.warn(*tape.end())
             summary = figures.summary(wall_s, headland(world, path), judge(world, path, run.lanes))
-            write_summary(directory.summary, summary)
-            draw_run(directory.map, plan, path, run.field.name, summary)
+            with first_failure_told():
+                write_summary(directory.summary, summary)
+                draw_run(directory.map, plan, path, run.field.name, summary)
     return Simulated(directory, summary, path)
 
 

@@ -23,7 +23,8 @@ class Watches:
         self._loop_s = robot.timeouts.loop_s
         self._least_percent = robot.battery.least_charge
         self._camera_watch = CameraWatch(task, robot.camera_limits)
-        self._wheel_watch, self._progress = WheelWatch(radians(robot.limits.steering_aligned_deg)), Progress()
+        self._wheel_watch = WheelWatch(radians(robot.limits.steering_aligned_deg), robot.geometry)
+        self._progress = Progress()
         self._slow = False
 
     def lateness(self, before_s: float | None, now_s: float) -> Trouble | None:

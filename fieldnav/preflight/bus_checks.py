@@ -7,7 +7,7 @@ from pathlib import Path
 import can
 
 from drivers.bus_watch import BUS_OFF_BIT, FULLEST
-from drivers.host_line import BUS_ERRORS
+from drivers.reopened_bus import BUS_ERRORS
 from fieldnav.preflight.finding import Concern, Finding, Verdict, finding_of
 from fieldnav.preflight.foreign_words import meaning
 from fieldnav.preflight.hearing import Hearing

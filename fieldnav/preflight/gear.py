@@ -9,6 +9,7 @@ import can
 from drivers.can_log import open_bus
 from drivers.opencv_camera import open_camera
 from drivers.ports import Camera
+from drivers.reopened_bus import ReopenedBus
 from fieldnav.errors import DriverError
 from fieldnav.messages import CameraName
 from fieldnav.preflight.finding import Finding, Verdict
@@ -20,10 +21,14 @@ BITS_PER_KILOBIT = 1000
 
 @dataclass(frozen=True, slots=True)
 class Gear:
-    """What could be opened: the bus, None where it could not, and each camera that could."""
+    """What could be opened: the bus, None where it could not, and each camera that could.
+
+    reopen_bus: opens the bus again if it was lost; raises DriverError.
+    """
 
     bus: can.BusABC | None
     cameras: Mapping[CameraName, Camera]
+    reopen_bus: Callable[[], None] = lambda: None
 
 
 @contextmanager
@@ -42,12 +47,13 @@ def opened(
             findings.append(finding)
             if camera is not None:
                 cameras[name] = camera
-        yield Gear(bus, cameras), tuple(findings)
+        reopen_bus = bus.reopen if bus is not None else lambda: None
+        yield Gear(bus, cameras, reopen_bus), tuple(findings)
 
 
-def _bus(settings: Bus, stack: ExitStack) -> tuple[can.BusABC | None, list[Finding]]:
+def _bus(settings: Bus, stack: ExitStack) -> tuple[ReopenedBus | None, list[Finding]]:
     try:
-        bus = open_bus(settings)
+        bus = ReopenedBus(lambda: open_bus(settings))
     except DriverError as error:
         advice = "set the interface up, or can.interface and can.channel right"
         return None, [Finding("bus opens", Verdict.FAIL, str(error), advice)]

@@ -4,9 +4,10 @@ from collections.abc import Callable, Mapping
 
 import can
 
-from drivers.host_line import BUS_ERRORS
 from drivers.module_link import ModuleLink
+from drivers.own_frames import OwnFrames
 from drivers.plausibility import plausible
+from drivers.reopened_bus import BUS_ERRORS, said
 from drivers.thorvald_protocol import Kind
 from drivers.wire_layout import Telegram, wire_layout
 from fieldnav.messages import Wheel
@@ -16,7 +17,7 @@ BATTERY = frozenset({Kind.BATTERY_VOLTAGE, Kind.BATTERY_CURRENT, Kind.BATTERY_CH
 HOSTS_OWN = frozenset(
     {Kind.NMT, Kind.DRIVE, Kind.SET_UP, Kind.MODE, Kind.STEER, Kind.SDO_REQUEST, Kind.HOST_HEARTBEAT}
 )
-"""What only a host says. A host never hears its own."""
+"""What only a host says; this host's own words are not among what is heard."""
 HEAD_BITS, LONG_HEAD_BITS = 47, 67
 """Of a frame beside its data, with the gap after it: 11 bit identifier, 29 bit one (ISO 11898)."""
 BITS_PER_BYTE = 8
@@ -95,19 +96,20 @@ class Ear(can.BusABC):
         super().__init__(channel=bus.channel_info)
         self.channel_info = f"{bus.channel_info}, listened to"
         self._bus, self._hearing, self._clock = bus, hearing, clock
+        self._own = OwnFrames()
 
     def send(self, msg: can.Message, timeout: float | None = None) -> None:
         try:
-            self._bus.send(msg, timeout)
+            self._own.send(self._bus, msg, timeout)
         except BUS_ERRORS as error:
-            self._hearing.failure = f"cannot be written: {error}"
+            self._hearing.failure = f"cannot be written: {said(error)}"
             raise
 
     def recv(self, timeout: float | None = None) -> can.Message | None:
         try:
-            frame = self._bus.recv(timeout)
+            frame = self._own.next_of_others(self._bus, timeout)
         except BUS_ERRORS as error:
-            self._hearing.failure = f"cannot be read: {error}"
+            self._hearing.failure = f"cannot be read: {said(error)}"
             raise
         if frame is not None:
             self._hearing.take(frame, self._clock())

@@ -4,7 +4,7 @@ from contextlib import suppress
 
 import can
 
-from drivers.host_line import BUS_ERRORS
+from drivers.reopened_bus import BUS_ERRORS
 from drivers.thorvald import ThorvaldWheels
 from fieldnav.errors import DriverError
 from fieldnav.preflight.hearing import Ear, Hearing

@@ -34,6 +34,7 @@ class Server(ThreadingHTTPServer):
     def __init__(self, port: int = 0) -> None:
         super().__init__(("127.0.0.1", port), Streaming)
         self.level, self.stopping, self.hanging, self.damaging = 0, Event(), Event(), Event()
+        self.size_px = WIDTH_PX, HEIGHT_PX
         self._thread = Thread(target=self.serve_forever, args=(FRAME_S,))
         self._thread.start()
 
@@ -60,7 +61,8 @@ class Streaming(BaseHTTPRequestHandler):
 
     def _send_frame(self) -> None:
         self.server.level = (self.server.level + 1) % BRIGHTEST
-        image = np.full((HEIGHT_PX, WIDTH_PX, 3), self.server.level, np.uint8)
+        width_px, height_px = self.server.size_px
+        image = np.full((height_px, width_px, 3), self.server.level, np.uint8)
         data = cv2.imencode(".jpg", image)[1].tobytes()
         if self.server.damaging.is_set():
             data = data[:-CUT_BYTES] + END
@@ -94,11 +96,19 @@ def until(holds: Callable[[], bool]) -> None:
 
 
 def newest(camera: Camera) -> Frame | None:
-    """None also while it is gone."""
+    """None also while it is gone, or of the wrong size."""
     try:
         return camera.latest(time.monotonic())
     except DriverError:
         return None
+
+
+def fault_of(camera: Camera) -> FaultKind | None:
+    try:
+        camera.latest(time.monotonic())
+    except DriverError as error:
+        return error.fault
+    return None
 
 
 def frame_of(camera: Camera, sequence: int) -> Frame:
@@ -117,6 +127,17 @@ def error_of(camera: Camera) -> DriverError:
     with pytest.raises(DriverError) as caught:
         camera.latest(time.monotonic())
     return caught.value
+
+
+def test_a_stream_that_is_of_the_right_size_again_is_seen_to_be(server: Server) -> None:
+    server.size_px = WIDTH_PX // 2, HEIGHT_PX // 2
+    camera = camera_of(server.server_port)
+    until(lambda: fault_of(camera) is FaultKind.CAMERA_SIZE)
+
+    server.size_px = WIDTH_PX, HEIGHT_PX
+
+    until(lambda: newest(camera) is not None)
+    camera.close()
 
 
 def test_a_stream_shows_its_newest_frame_as_old_as_it_is(server: Server) -> None:

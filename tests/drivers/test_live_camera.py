@@ -12,7 +12,7 @@ import cv2
 import numpy as np
 import pytest
 
-from drivers.live_camera import LiveCamera, Pauses
+from drivers.live_camera import MAX_MISFITS, LiveCamera, Pauses
 from fieldnav.errors import DriverError
 from fieldnav.faults import FaultKind
 from fieldnav.messages import CameraName, Frame, Image
@@ -244,6 +244,19 @@ def test_a_frame_of_the_wrong_size_is_a_fault_until_a_right_one_comes(live: Live
 
     live.port.first.reads.put(grey(0))
     assert live.newest(4).sequence == 4
+
+
+def test_a_source_that_stays_of_the_wrong_size_is_opened_again_and_the_fault_stays_meanwhile(
+    live: Live,
+) -> None:
+    for _ in range(MAX_MISFITS):
+        live.port.first.reads.put(np.zeros((720, 1280, 3), np.uint8))
+    assert live.port.first.released.wait(PATIENCE_S)
+    assert live.trouble().fault is FaultKind.CAMERA_SIZE
+
+    live.port.plug_in().reads.put(grey(0))
+
+    assert live.newest(MAX_MISFITS + 1).sequence == MAX_MISFITS + 1
 
 
 def test_frames_without_colours_are_a_fault(live: Live) -> None:

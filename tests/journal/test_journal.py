@@ -1,6 +1,7 @@
 """The journal is on the disk before the wheels obey, and readable whatever happened after."""
 
 import json
+import shutil
 import subprocess
 import sys
 from datetime import UTC, datetime
@@ -157,6 +158,17 @@ def test_a_full_disk_is_one_line_and_leaves_only_whole_lines(tmp_path: Path) -> 
     assert content.endswith(b"\n")
     assert len(content) < 70000
     assert len(read(tmp_path / "journal.jsonl")) > 1
+
+
+def test_a_journal_that_is_deleted_while_it_is_written_is_an_error(tmp_path: Path) -> None:
+    (tmp_path / "run").mkdir()
+    path = tmp_path / "run" / "journal.jsonl"
+    with Journal(path, START) as journal:
+        journal.record(ENTRY)
+        shutil.rmtree(path.parent)
+
+        with pytest.raises(OutputError, match=r"journal\.jsonl: cannot be written: it was deleted"):
+            journal.record(ENTRY)
 
 
 @given(st.floats())

@@ -166,6 +166,15 @@ def test_a_process_that_is_killed_leaves_every_line_and_no_lock(path: Path) -> N
     assert len(path.read_bytes().splitlines()) == 6
 
 
+def test_a_ledger_that_is_deleted_while_it_is_written_is_an_error(path: Path) -> None:
+    with Ledger(path) as ledger:
+        ledger.book(booking(1))
+        path.unlink()
+
+        with pytest.raises(OutputError, match="cannot be written: it was deleted"):
+            ledger.book(booking(1))
+
+
 def test_a_full_disk_is_one_line_and_leaves_only_whole_lines(path: Path) -> None:
     program = (
         "resource.setrlimit(resource.RLIMIT_FSIZE, (1000, 1000))\n"

@@ -153,8 +153,8 @@ def rig_with(tmp_path: Path) -> Iterator[Callable[[Confirmations | None], Rig]]:
     made: list[Rig] = []
     buses: list[can.BusABC] = []
 
-    def make(confirmations: Confirmations | None) -> Rig:
-        host, far = open_virtual_pair()
+    def make(confirmations: Confirmations | None, pair: tuple[can.BusABC, can.BusABC] | None = None) -> Rig:
+        host, far = pair or open_virtual_pair()
         buses.extend((host, far))
         made.append(Rig(tmp_path, host, far, confirmations))
         made[-1].mission.start(0.0)

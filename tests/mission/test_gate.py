@@ -105,17 +105,20 @@ def test_a_wanted_speed_is_reached_within_the_acceleration_limit(rig):
     assert rig.true_speed_mps == pytest.approx(0.5, abs=0.001)
 
 
-def test_outside_moving_states_the_robot_ramps_to_a_stop_and_gets_zero(rig):
-    rig.run(1.0, AHEAD)
-
-    first, *_, last = rig.run(1.0, AHEAD, moving=False)
-
-    assert first.motion.twist.vx_mps == pytest.approx(0.484)
-    assert last.motion.twist == STANDSTILL
+@pytest.mark.parametrize("motion", [AHEAD, SIDEWAYS, Motion(Twist(0.3, 0.3, 0.3), Steering.OMNIDIRECTIONAL)])
+def test_outside_moving_states_zero_is_sent_from_the_first_round_on(rig, motion):
+    rig.run(3.0, motion)
+    turned = {wheel: state.steering_rad for wheel, state in rig.modules.wheel_states().items()}
     rig.sent_speeds()
-    rig.tick(AHEAD, moving=False)
+
+    passed = rig.run(1.0, motion, moving=False)
+
     assert rig.sent_speeds() == {0}
-    assert last.reason == ""
+    assert {one.motion.twist for one in passed} == {STANDSTILL}
+    assert {one.reason for one in passed} == {""}
+    assert rig.true_speed_mps == 0.0
+    for wheel, state in rig.modules.wheel_states().items():
+        assert state.steering_rad == pytest.approx(turned[wheel], abs=0.01), "the wheels stay as they are"
 
 
 @pytest.mark.parametrize("motion", [AHEAD, SIDEWAYS, Motion(Twist(0.3, 0.3, 0.3), Steering.OMNIDIRECTIONAL)])
