@@ -86,6 +86,7 @@ class LoggedBus(can.BusABC):
     def recv(self, timeout: float | None = None) -> can.Message | None:
         msg = self._bus.recv(timeout)
         if msg is not None:
+            msg.is_rx = True  # SocketCAN has it false for what another program of this computer has sent
             if self._clock is not None:
                 msg.timestamp = self._clock()
             self._keep(msg)

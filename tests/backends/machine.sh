@@ -61,5 +61,5 @@ nice -n 5 timeout "$LIMIT_S" qemu-system-x86_64 -accel tcg -cpu max -m "$MEMORY_
     -object can-bus,id=bus -device kvaser_pci,canbus=bus -device kvaser_pci,canbus=bus \
     -virtfs local,path=/,mount_tag=system,security_model=none,readonly=on,multidevs=remap \
     -kernel "/boot/vmlinuz-$release" -initrd "$folder/initramfs" \
-    -append "console=ttyS0 quiet edd=off panic=-1" </dev/null | tr -d '\r' | tee "$folder/said"
+    -append "console=ttyS0 quiet edd=off panic=-1" </dev/null | sed --unbuffered "s/\r$//" | tee "$folder/said"
 grep -q '^exit status 0$' "$folder/said"

@@ -15,9 +15,10 @@ from drivers.simulated_modules import SimulatedModules
 from drivers.thorvald import ThorvaldWheels
 from fieldnav.errors import DriverError
 from fieldnav.faults import FaultKind
-from fieldnav.messages import Side, Wheel, WheelReport, WheelSetpoint
+from fieldnav.messages import CameraName, Side, Wheel, WheelReport, WheelSetpoint
 from fieldnav.mission import simulated
 from fieldnav.mission.simulated import Run
+from fieldnav.settings.camera import Cameras
 from fieldnav.settings.loading import load_crop, load_field, load_robot, revised
 from fieldnav.settings.robot import Bus, Robot
 
@@ -36,6 +37,9 @@ FOREIGN_DRIVE = can.Message(
 )
 
 
+SMALL = {"width_px": 320, "height_px": 180}
+
+
 def ip(*words: str) -> None:
     subprocess.run(["ip", *words], check=True)
 
@@ -43,6 +47,15 @@ def ip(*words: str) -> None:
 def skip_without(line: str) -> None:
     if not is_there(line):
         pytest.skip(f"needs the interfaces {', '.join(LINES[line])}")
+
+
+def with_small_cameras() -> Robot:
+    """An emulated processor draws few pixels a second."""
+    robot = load_robot("bonnbot")
+    small = {name: robot.cameras.get(name).model_copy(update=SMALL) for name in CameraName}
+    return robot.model_copy(
+        update={"cameras": Cameras(front=small[CameraName.FRONT], rear=small[CameraName.REAR])}
+    )
 
 
 class Bench:
@@ -210,14 +223,13 @@ def test_an_interface_that_is_gone_is_said_at_every_command(bench_on: Callable[[
         ip("link", "set", "vcan0", "up")
 
 
-@pytest.mark.parametrize("line", LINES)
-def test_a_short_mission_is_driven_over_it(
-    line: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+def test_a_short_mission_is_driven_over_two_controllers(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    skip_without(line)
-    monkeypatch.setattr(simulated, "open_virtual_pair", lambda: open_stepped_pair(line))
-    field = revised(load_field("demo"), {"lanes": 2, "length_m": 4})
-    run = Run(field, load_crop(field.crop), load_robot("bonnbot"), 2, Side.RIGHT, tmp_path, sketch=True)
+    skip_without("controllers")
+    monkeypatch.setattr(simulated, "open_virtual_pair", lambda: open_stepped_pair("controllers"))
+    field = revised(load_field("demo"), {"lanes": 1, "length_m": 4})
+    run = Run(field, load_crop(field.crop), with_small_cameras(), 1, Side.RIGHT, tmp_path, sketch=True)
 
     summary = simulated.simulate(run).summary
 
