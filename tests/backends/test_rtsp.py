@@ -38,8 +38,8 @@ HELD_S = 1.4
 """Less than the 2 s after which a stream that gives nothing is given up."""
 MAX_LATENCY_S = 0.5
 """What `latency_s` of a robot file can say at most."""
-MAX_STAMP_ERROR_S = 0.1
-"""Of a machine that others share; the stamps are true within some 0.02 s where they do not."""
+MAX_STAMP_ERROR_S = 0.3
+"""Of a machine that others share, which holds up the server too; alone it is some 0.02 s."""
 
 
 class Server:
@@ -57,8 +57,10 @@ class Server:
         assert self._process.stdout.readline() == "ready\n"
 
     def end(self) -> None:
+        """May be repeated."""
         self._process.kill()
-        self._process.communicate()
+        self._process.wait()
+        self._process.stdout.close()
 
 
 class Network:
@@ -179,7 +181,6 @@ def test_its_frames_come_whole_in_order_and_as_old_as_they_say(
     serve: Callable[..., Server],
     camera_of: Callable[..., Camera],
     codec: str,
-    record_property: Callable[..., None],
 ) -> None:
     camera = camera_of(serve(codec).port)
 
