@@ -1,5 +1,8 @@
 # make run    set up and watch the robot drive the demonstration field
 # make test   everything that CI checks
+# make test-lowest    the tests with the lowest versions that pyproject.toml allows, in an environment of their own
+# make test-backends  SocketCAN and RTSP, with what Debian's packages offer; says what it lacks, installs nothing
+# make test-package   builds sdist and wheel; the wheel, alone in an environment of its own, drives a lane
 # make clean  remove what these made
 # The only needs are Python 3.11 or newer and make. PYTHON=python3.12 names another interpreter.
 
@@ -7,7 +10,14 @@ PYTHON ?= python3
 BIN := .venv/bin
 PIP := $(BIN)/python -m pip --quiet --disable-pip-version-check
 
-.PHONY: run test clean
+LOWEST := .venv-lowest/bin
+PACKAGE := .venv-package/bin
+# The share of the tests that CI runs with the lowest versions: what leans on other packages most, in a minute.
+LOWEST_SHARE := tests/settings/test_wrong_input.py tests/drivers/test_thorvald.py tests/drivers/test_can_log.py \
+	tests/recording/test_schemas.py tests/recording/test_foxglove.py tests/states/test_diagram.py \
+	tests/cli/test_detect.py tests/cli/test_simulate.py tests/replay/foreign/test_refused.py
+
+.PHONY: run test test-lowest test-lowest-share test-backends test-package clean
 .DELETE_ON_ERROR:
 
 run: .venv/installed
@@ -20,8 +30,27 @@ test: .venv/installed-dev
 	$(BIN)/lint-imports
 	$(BIN)/pytest -n 2
 
+test-lowest: .venv-lowest/installed
+	$(LOWEST)/pytest -n 2
+
+test-lowest-share: .venv-lowest/installed
+	$(LOWEST)/pytest -n 2 $(LOWEST_SHARE)
+
+test-backends: .venv/installed-dev
+	$(BIN)/pytest -v -rs tests/backends/test_rtsp.py
+	tests/backends/machine.sh $(BIN)/pytest -v -rs -p no:cacheprovider tests/backends/test_socketcan.py
+
+test-package:
+	rm -rf dist
+	$(PYTHON) -m venv --clear .venv-package
+	$(PACKAGE)/python -m pip --quiet --disable-pip-version-check install build
+	$(PACKAGE)/python -m build --outdir dist
+	$(PACKAGE)/python -m pip --quiet --disable-pip-version-check install dist/*.whl
+	cd dist && ../$(PACKAGE)/fieldnav --version
+	cd dist && ../$(PACKAGE)/fieldnav simulate demo --lanes 1 --length 4 --sketch
+
 clean:
-	rm -rf .venv .pytest_cache .mypy_cache .ruff_cache .hypothesis .import_linter_cache dist
+	rm -rf .venv .venv-lowest .venv-package .pytest_cache .mypy_cache .ruff_cache .hypothesis .import_linter_cache dist
 
 # Made anew only when pyproject.toml changes; the code itself is installed editable.
 .venv/installed: pyproject.toml
@@ -33,4 +62,11 @@ clean:
 
 .venv/installed-dev: .venv/installed
 	$(PIP) install --editable '.[dev]'
+	@touch $@
+
+# uv resolves the lowest versions of what pyproject.toml names itself, and the newest of what those need.
+.venv-lowest/installed: pyproject.toml
+	$(PYTHON) -m venv --clear .venv-lowest
+	$(LOWEST)/python -m pip --quiet --disable-pip-version-check install uv
+	$(LOWEST)/uv pip install --quiet --python $(LOWEST)/python --resolution lowest-direct --editable '.[dev]'
 	@touch $@

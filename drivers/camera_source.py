@@ -14,7 +14,8 @@ from fieldnav.errors import DriverError
 from fieldnav.faults import FaultKind
 from fieldnav.settings.shown_source import PIPED, in_unicode, shown
 
-STREAMS = ("rtsp://", "rtsps://", "http://", "https://")
+STAMPED_STREAMS = ("rtsp://", "rtsps://")
+STREAMS = (*STAMPED_STREAMS, "http://", "https://")
 OPENING_S, READING_S, MILLISECONDS = 5, 2, 1000
 """A stream's key frames, without which it cannot be opened, come every few seconds; its frames always."""
 TIMEOUTS = (
@@ -66,6 +67,16 @@ def kind_of(source: str) -> SourceKind:
     if not path.exists():
         raise _unplugged(f"{shown(source)}: there is no such device, video, picture or folder")
     return SourceKind.DEVICE
+
+
+def brings_stamps(source: str) -> bool:
+    """Whether frames say themselves when they were made; those by HTTP do not, and FFmpeg makes stamps up."""
+    return source.lower().startswith(STAMPED_STREAMS)
+
+
+def own_stamp_s(capture: cv2.VideoCapture) -> float:
+    """The stamp that the frame which was read last brought with it."""
+    return capture.get(cv2.CAP_PROP_POS_MSEC) / MILLISECONDS
 
 
 def quieten() -> None:

@@ -102,6 +102,7 @@ class LoggedBus(can.BusABC):
         """The next frame of another; the host's own, where an adapter gives them back, are noted already."""
         msg = self._own.next_of_others(self._bus, timeout)
         if msg is not None:
+            msg.is_rx = True  # SocketCAN has it false for what another program of this computer has sent
             if self._clock is not None:
                 msg.timestamp = self._clock()
             self._keep(msg, msg.timestamp)

@@ -10,6 +10,7 @@ import numpy as np
 
 from drivers.compression import compressed
 from drivers.recorded_camera import check_size
+from drivers.stream_clock import StreamClock
 from fieldnav.errors import DriverError, PictureError
 from fieldnav.faults import FaultKind, Trouble
 from fieldnav.messages import CameraName, Frame
@@ -21,6 +22,8 @@ CLOSING_S = 3.0
 MAX_MISFITS = 15
 """Pictures of the wrong size in a row, a second's, after which the source is opened again: OpenCV scales all
 pictures of a stream to the size of its first, and would never show that the stream is right again."""
+MAX_LATE_S = 2.0
+"""A stream that is so late is opened again, which leaves behind what waits; as one that gives nothing."""
 
 
 class Device(Protocol):
@@ -51,8 +54,9 @@ PAUSES = Pauses()
 class LiveCamera:
     """The Camera port over a device that `opener` opens: the newest frame alone is kept.
 
-    A frame's stamp is when it had come, by `clock`, less `latency_s` of the settings. The constructor raises
-    what `opener` raises, a DriverError; later the source is opened again for as long as it takes.
+    A frame's stamp is when it had come, by `clock`, less `latency_s` of the settings; a stream whose frames
+    have stamps of their own is told late from punctual by them. The constructor raises what `opener` raises,
+    a DriverError; later the source is opened again for as long as it takes.
     """
 
     def __init__(
@@ -63,9 +67,13 @@ class LiveCamera:
         clock: Callable[[], float],
         pauses: Pauses = PAUSES,
         quality: int | None = None,
+        own_stamp: Callable[[Any], float] | None = None,
     ) -> None:
-        """quality: of the JPEG that each frame is to come with, made on this camera's thread."""
-        self._quality = quality
+        """quality: of the JPEG that each frame is to come with, made on this camera's thread.
+
+        own_stamp: reads from a device the stamp, in seconds, that its last frame brought itself.
+        """
+        self._quality, self._own_stamp = quality, own_stamp
         self._name, self._settings, self._clock, self._pauses = name, settings, clock, pauses
         self._opener, self._source = opener, shown(settings.source)
         self._newest: Frame | Trouble | None = None  # one value, so that a reader never sees half of a change
@@ -114,6 +122,7 @@ class LiveCamera:
 
     def _take_all(self, device: Device) -> None:
         """Take frames until there are no more that fit or the camera is closed, and give the device back."""
+        stream = StreamClock()
         try:
             while not self._closing.is_set():
                 try:
@@ -123,7 +132,7 @@ class LiveCamera:
                     continue
                 if not whole:
                     raise DriverError(f"{self._source}: gives no more frames", FaultKind.CAMERA_UNPLUGGED)
-                self._take(image, self._clock())
+                self._take(image, self._punctual_s(device, stream))
         except (DriverError, cv2.error) as error:
             self._fail(error)
         finally:
@@ -134,9 +143,21 @@ class LiveCamera:
         self._sequence += 1
         self._newest = Trouble(FaultKind.CAMERA_UNPLUGGED, f"{self._source}: a frame {error}")
 
-    def _take(self, image: Any, arrived_s: float) -> None:
+    def _punctual_s(self, device: Device, stream: StreamClock) -> float:
+        """When the frame that was just read has arrived, or should have. Raises DriverError if long ago."""
+        arrived_s = self._clock()
+        if self._own_stamp is None:
+            return arrived_s
+        punctual_s = stream.punctual_s(self._own_stamp(device), arrived_s)
+        late_s = arrived_s - punctual_s
+        if late_s > MAX_LATE_S:
+            said = f"its frames come {late_s:.1f} s late by their own stamps, limit {MAX_LATE_S:.1f} s"
+            raise DriverError(f"{self._source}: {said}", FaultKind.CAMERA_UNPLUGGED)
+        return punctual_s
+
+    def _take(self, image: Any, punctual_s: float) -> None:
         self._sequence += 1
-        taken, stamp_s = np.asarray(image, dtype=np.uint8), arrived_s - self._settings.latency_s
+        taken, stamp_s = np.asarray(image, dtype=np.uint8), punctual_s - self._settings.latency_s
         try:
             check_size(taken, self._settings)
         except DriverError as error:

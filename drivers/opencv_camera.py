@@ -6,7 +6,7 @@ from pathlib import Path
 
 import cv2
 
-from drivers.camera_source import SourceKind, kind_of, open_capture, quieten
+from drivers.camera_source import SourceKind, brings_stamps, kind_of, open_capture, own_stamp_s, quieten
 from drivers.live_camera import LiveCamera
 from drivers.motion_jpeg import Capture, checked
 from drivers.ports import Camera
@@ -50,7 +50,8 @@ def _opened(
             opener = partial(_tuned, source, kind, settings)
         case SourceKind.PIPELINE | SourceKind.STREAM:  # they say themselves what they give
             opener = partial(_streamed, source, kind)
-    return LiveCamera(name, settings, opener, clock, quality=quality)
+    own_stamp = own_stamp_s if brings_stamps(source) else None
+    return LiveCamera(name, settings, opener, clock, quality=quality, own_stamp=own_stamp)
 
 
 def _streamed(source: str, kind: SourceKind) -> Capture:

@@ -68,6 +68,30 @@ def test_every_frame_is_in_the_log_once_and_in_order(robot, tmp_path):
     assert all(wire_layout().read(frame) is not None for frame in frames)
 
 
+class SharedBus(can.BusABC):
+    """A bus that marks what another program of the same computer has sent, as SocketCAN does."""
+
+    def __init__(self):
+        super().__init__(channel="shared")
+
+    def recv(self, timeout=None):
+        return can.Message(arbitration_id=0x181, data=bytes(8), is_extended_id=False, is_rx=False)
+
+    def send(self, msg, timeout=None):
+        pass
+
+
+def test_what_another_program_of_this_computer_sent_was_received(tmp_path):
+    bus = LoggedBus(SharedBus(), tmp_path / "can.log", "vcan0")
+
+    bus.recv()
+    bus.send(can.Message(arbitration_id=0x201, data=bytes(8), is_extended_id=False))
+    bus.shutdown()
+
+    lines = (tmp_path / "can.log").read_text().splitlines()
+    assert [line.split()[-1] for line in lines] == ["R", "T"]
+
+
 def test_cantools_decodes_every_line_of_the_log(robot, tmp_path):
     drive(robot, tmp_path / "can.log", seconds=1.2)
     lines = (tmp_path / "can.log").read_text()

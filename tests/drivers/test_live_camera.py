@@ -12,7 +12,7 @@ import cv2
 import numpy as np
 import pytest
 
-from drivers.live_camera import MAX_MISFITS, LiveCamera, Pauses
+from drivers.live_camera import MAX_LATE_S, MAX_MISFITS, LiveCamera, Pauses
 from fieldnav.errors import DriverError
 from fieldnav.faults import FaultKind
 from fieldnav.messages import CameraName, Frame, Image
@@ -45,6 +45,11 @@ class Webcam:
     def __init__(self) -> None:
         self.reads: Queue[Read] = Queue()
         self.released = Event()
+        self.stamps_s = iter([0.0])
+        """What its frames say of when they were made, one after another."""
+
+    def own_stamp_s(self) -> float:
+        return next(self.stamps_s)
 
     def read(self) -> tuple[bool, Image | None]:
         read = self.reads.get(timeout=PATIENCE_S)
@@ -81,11 +86,16 @@ class Port:
 class Live:
     """A live camera on a port, and a clock that counts the frames."""
 
-    def __init__(self, pauses: Pauses) -> None:
+    def __init__(self, pauses: Pauses, own_stamp: Callable[[Webcam], float] | None = None) -> None:
         ticks, before = count(), set(running())
         self.port = Port()
         self.camera = LiveCamera(
-            CameraName.FRONT, SETTINGS, self.port.open, lambda: float(next(ticks)), pauses
+            CameraName.FRONT,
+            SETTINGS,
+            self.port.open,
+            lambda: float(next(ticks)),
+            pauses,
+            own_stamp=own_stamp,
         )
         (self.thread,) = set(running()) - before
 
@@ -146,6 +156,14 @@ def waiting() -> Iterator[Live]:
     made.end()
 
 
+@pytest.fixture
+def stamped() -> Iterator[Live]:
+    """A live camera on a stream whose frames bring stamps of their own."""
+    made = Live(AT_ONCE, Webcam.own_stamp_s)
+    yield made
+    made.end()
+
+
 def test_before_its_first_frame_a_device_shows_nothing(live: Live) -> None:
     assert live.camera.latest(0.0) is None
 
@@ -167,6 +185,32 @@ def test_only_the_newest_frame_is_kept_stamped_as_it_was_exposed(live: Live) -> 
 
     assert (frame.sequence, frame.image[0, 0, 0], frame.stamp_s) == (12, 11, 11 - LATENCY_S)
     assert live.camera.latest(99.0) is frame, "a device that is silent shows how old its frame is"
+
+
+def test_a_frame_of_a_stream_that_was_held_up_is_as_old_as_its_own_stamp_says(stamped: Live) -> None:
+    stamped.port.first.stamps_s = iter([70.0, 71.0, 71.5])
+    for _ in range(3):
+        stamped.port.first.reads.put(grey(0))
+
+    frame = stamped.newest(3)
+
+    assert frame.stamp_s == pytest.approx(2.0 - 0.5 - LATENCY_S, abs=0.01), "the third came at 2 s"
+
+
+def test_a_stream_that_is_far_too_late_is_opened_again_and_counts_anew(stamped: Live) -> None:
+    stamped.port.first.stamps_s = iter([0.0, 0.1, 0.2, 0.3])
+    for _ in range(4):
+        stamped.port.first.reads.put(grey(0))
+    error = stamped.trouble()
+    again = stamped.port.plug_in()
+    again.stamps_s = iter([500.0])
+    again.reads.put(grey(0))
+    frame = stamped.newest(4)
+
+    assert error.fault is FaultKind.CAMERA_UNPLUGGED
+    assert f"come 2.7 s late by their own stamps, limit {MAX_LATE_S:.1f} s" in str(error)
+    assert stamped.port.first.released.is_set()
+    assert frame.stamp_s == pytest.approx(4.0 - LATENCY_S)
 
 
 @pytest.mark.parametrize("how", [None, cv2.error("ioctl")])

@@ -1,6 +1,7 @@
 """report.html in a headless Chromium: it shows what the journal says, without an error or a request."""
 
 import json
+import os
 import re
 import shutil
 import subprocess
@@ -14,6 +15,8 @@ from fieldnav.report.writing import write_report
 
 from .made_run import STORY, STUCK, written
 
+NEEDED = "CI_NEEDS_BROWSER"
+"""Where this is set, a machine without a browser is a failure."""
 NAMES = ("chromium", "chromium-browser", "google-chrome", "chrome")
 QUIET = (
     "--headless",
@@ -83,7 +86,9 @@ def asked_by_the_page(event: dict[str, Any]) -> str:
 def browser(tmp_path: Path) -> Browser:
     program = next((found for name in NAMES if (found := shutil.which(name))), None)
     if program is None:
-        pytest.skip(f"needs a browser to look with: none of {', '.join(NAMES)} is on this machine")
+        said = f"needs a browser to look with: none of {', '.join(NAMES)} is on this machine"
+        assert not os.environ.get(NEEDED), said
+        pytest.skip(said)
     return Browser(program, tmp_path)
 
 
