@@ -40,7 +40,7 @@ DRIFT_S2_PER_S = 0.06**2
 MAX_CHANCE = 3.5
 """Logarithm of how much one picture alone may speak for pictures that do not follow from one another: 30
 times."""
-SURPRISE = 2.0
+SURPRISE = 3.0
 """Logarithm of how much more likely two pictures must be not to belong together before time may have
 jumped."""
 

@@ -151,7 +151,9 @@ class MotionMonitor:
     def _judged(self, camera: CameraName) -> Trouble | None:
         lies = {lie: self._belief.probability(lie) for lie in Lie}
         late = self._belief.later_than(self._max_delay_s)
-        if late + sum(lies.values()) < SURE:
+        turned = lies[Lie.REVERSED] + lies[Lie.MIRRORED]
+        past = late + lies[Lie.STILL] + lies[Lie.UNRELATED]
+        if max(turned, past) < SURE:
             return None
         likeliest = max(lies, key=lambda lie: lies[lie])
         if late > lies[likeliest]:

@@ -9,6 +9,7 @@ from fieldnav.errors import DriverError
 from fieldnav.faults import FaultKind, Reaction, Trouble
 from fieldnav.messages import Frame
 from fieldnav.mission.motion_monitor import MotionMonitor, View
+from fieldnav.mission.repeated_pictures import RepeatedPictures
 from fieldnav.odometry import Pose, Track
 from fieldnav.perception.ground_view import GroundView
 from fieldnav.perception.pose.picture_quality import BLACK, WHITE
@@ -42,6 +43,7 @@ class PictureWatch:
         self._camera = camera
         self._view = GroundView(camera)
         self.motion = MotionMonitor(self._view, max_delay_s)
+        self._repeated = RepeatedPictures()
         self._before: View | None = None
         self._sample = self._image = np.empty(0, np.uint8)
         self._changed_s = 0.0
@@ -58,7 +60,8 @@ class PictureWatch:
         found = self._unlit(frame, float(sample.mean())) or self._frozen(
             frame, sample, track.at(frame.stamp_s)
         )
-        found = found or self._empty(frame, sample) or self._compared(frame, track)
+        found = found or self._empty(frame, sample) or self._shown_before(frame, sample, track)
+        found = found or self._compared(frame, track)
         if found is not None and found.reaction is not Reaction.HOLD:
             raise DriverError(found.said, found.fault)
         return found
@@ -93,6 +96,13 @@ class PictureWatch:
             return None
         said = f"{frame.camera.value} camera: the same picture for {same_s:.2f} s and {driven_m:.2f} m"
         return Trouble(FaultKind.CAMERA_FROZEN, said)
+
+    def _shown_before(self, frame: Frame, sample: NDArray[np.uint8], track: Track) -> Trouble | None:
+        age_s = self._repeated.age_s(sample, frame.stamp_s, track.at(frame.stamp_s))
+        if age_s is None:
+            return None
+        said = f"{frame.camera.value} camera: it shows pictures again that it showed {age_s:.1f} s ago"
+        return Trouble(FaultKind.CAMERA_PAST, said)
 
     def _empty(self, frame: Frame, sample: NDArray[np.uint8]) -> Trouble | None:
         """Crop is told from soil by its colour: a grey picture shows no crop, and that is no sign of its
