@@ -92,12 +92,13 @@ FAULTS: dict[FaultKind, Declared] = {
     ),
     FaultKind.CAMERA_BLIND: Declared(
         Reaction.HOLD,
-        "the picture has no colour, or plants that must be in view are gone",
+        "the picture has no colour or nothing in it, or plants that must be in view are gone",
         "clean the lens, turn the camera's night mode off",
     ),
     FaultKind.CAMERA_PAST: Declared(
         Reaction.STOP,
-        "the ground in the pictures stands still, jumps, or moves later than the wheels say",
+        "the ground in the pictures stands still, jumps, or moves later than the wheels say; "
+        "or they were shown before",
         "restart the camera and what brings its pictures; look for a buffer or a slow network",
     ),
     FaultKind.FRAMES_LATE: Declared(

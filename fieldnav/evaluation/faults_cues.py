@@ -7,13 +7,12 @@ from fieldnav.evaluation.faults_injection import broken
 from fieldnav.evaluation.faults_rig import Rig
 from fieldnav.messages import CameraName, Direction
 from fieldnav.simulation.injection_camera import CameraFault
-from states.names import Follow, Path, Phase, Sidestep
+from states.behaviour import Step
+from states.names import Event, Follow, Path, Phase, Sidestep
 from states.table import LATCHED, PAUSED, RECOVERABLE
 
 BLACKOUT_S = 2.7
 """Longer than a camera's silence is held for."""
-GAP_S, LOST_S = 2.5, 4.0
-"""Without plants in the picture: a gap in the rows; a next lane that is none."""
 SOON_S, LATER_S = 0.7, 1.5
 
 
@@ -37,10 +36,8 @@ def cues() -> tuple[Cue, ...]:
         Cue(RECOVERABLE, LATER_S, lambda rig: rig.operating.resume(rig.now_s)),
         Cue(tracking, SOON_S, lambda rig: broken(rig).reboot()),
         Cue(LATCHED, LATER_S, lambda rig: rig.operating.reset(rig.now_s)),
-        Cue(tracking, SOON_S, _gap),
-        Cue((forward, Phase.SIDESTEP, Sidestep.SETTLING), SOON_S, _no_lane),
-        Cue((backward, Phase.FOLLOW, Follow.TRACKING), LATER_S, _gap),
-        Cue((backward, Phase.SIDESTEP, Sidestep.SETTLING), SOON_S, _no_lane),
+        Cue((forward, Phase.SIDESTEP, Sidestep.SETTLING), SOON_S, _refuse),
+        Cue((backward, Phase.SIDESTEP, Sidestep.SETTLING), SOON_S, _refuse),
     )
 
 
@@ -48,14 +45,8 @@ def _black_out(rig: Rig) -> None:
     rig.cameras[CameraName.FRONT].break_by(CameraFault.BLACK, rig.now_s, rig.now_s + BLACKOUT_S)
 
 
-def _gap(rig: Rig) -> None:
-    _bare(rig, GAP_S)
-
-
-def _no_lane(rig: Rig) -> None:
-    _bare(rig, LOST_S)
-
-
-def _bare(rig: Rig, seconds: float) -> None:
-    for camera in rig.cameras.values():
-        camera.break_by(CameraFault.BARE, rig.now_s, rig.now_s + seconds)
+def _refuse(rig: Rig) -> None:
+    """No picture of a field shows a lane that is none and a moment later one that is: the event is given."""
+    refusal = "the next lane is refused, so that the way back can be tried"
+    rig.mission.course.behaviours.lane.switching.refused = refusal
+    rig.mission.course.go(rig.now_s, Step(event=Event.LANE_REFUSED, reason=refusal))

@@ -20,8 +20,10 @@ from states.names import Path as StatePath
 from states.table import IDLE
 
 FIELD, ROBOT = "demo", "bonnbot"
-LANES, LENGTH_M = 3, 8.0
+LANES, LENGTH_M = 3, 9.0
 """Two switches, one from a lane driven forward and one from a lane driven backward."""
+GAP_FROM_M, GAP_M = 5.0, 1.6
+"""In all rows of the first two lanes: there the mission coasts."""
 DWELL_S, SHORT_DWELL_S, LONG_DWELL_S = 0.4, 0.06, 1.0
 """The mission has been in a state for so long when a fault strikes."""
 SHORT = frozenset({Top.CHECKING, Top.RESUMING, Follow.ACQUIRING, Sidestep.ORIENTING, Sidestep.SAMPLING})
@@ -49,7 +51,8 @@ class Unplayed:
 
 def setting() -> Setting:
     """A short sketched field; vegetation is looked for at half the cameras' size, which costs a quarter."""
-    field = revised(load_field(FIELD), {"lanes": LANES, "length_m": LENGTH_M})
+    gaps = [{"lane": lane, "start_m": GAP_FROM_M, "length_m": GAP_M} for lane in (1, 2)]
+    field = revised(load_field(FIELD), {"lanes": LANES, "length_m": LENGTH_M, "gaps": {"placed": gaps}})
     return Setting(field, load_crop(field.crop), smaller(load_robot(ROBOT)))
 
 
