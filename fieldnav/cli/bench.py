@@ -4,7 +4,7 @@ import typer
 
 from fieldnav.cli.bench_faults import faults
 from fieldnav.cli.bench_kills import kills
-from fieldnav.cli.bench_missions import navigation, row_ends, switching
+from fieldnav.cli.bench_missions import navigation, picture_watch, row_ends, switching
 from fieldnav.cli.bench_robust import fuzz
 from fieldnav.cli.bench_sight import detection, speed
 
@@ -17,6 +17,7 @@ bench.command()(detection)
 bench.command()(navigation)
 bench.command()(switching)
 bench.command("row-ends")(row_ends)
+bench.command("picture-watch")(picture_watch)
 bench.command()(speed)
 bench.command()(fuzz)
 bench.command()(kills)

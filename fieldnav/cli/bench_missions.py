@@ -1,4 +1,5 @@
-"""`fieldnav bench navigation`, `switching` and `row-ends`: what missions come to, driven in simulation."""
+"""`fieldnav bench navigation`, `switching`, `row-ends`, `picture-watch`: what drives in simulation come
+to."""
 
 import os
 from dataclasses import replace
@@ -125,6 +126,35 @@ def row_ends(
         return Report(tuple(figures))
 
     report_on("row-ends", measure, as_json, as_markdown)
+
+
+def picture_watch(
+    kilometres: Annotated[
+        float, typer.Option(min=0.1, max=MOST_KILOMETRES, help="Of sketched fields.")
+    ] = 200.0,
+    drawn_kilometres: Annotated[
+        float, typer.Option(min=0.1, max=MOST_KILOMETRES, help="Of fields as they look.")
+    ] = 5.0,
+    seed: SeedOption = 1,
+    jobs: JobsOption = None,
+    quick: QuickOption = False,
+    as_json: JsonOption = False,
+    as_markdown: MarkdownOption = False,
+) -> None:
+    """Drive up and down every shipped field and crop by the truth: are good pictures taken for bad ones?
+
+    What the motion monitor and the other watches over a camera say against good pictures is a false alarm.
+    200 km take some twelve hours of one core, 5 km as they look two.
+    """
+    _ready(None)
+    from fieldnav.evaluation.benchmark import Plan, Progress, Report  # noqa: PLC0415 - see navigation
+    from fieldnav.evaluation.picture_watching import picture_watch_figures  # noqa: PLC0415 - loads OpenCV
+
+    def measure(tell: Progress) -> Report:
+        plan, processes = Plan(None, quick, seed), jobs or processors()
+        return Report(tuple(picture_watch_figures(plan, tell, processes, kilometres, drawn_kilometres)))
+
+    report_on("picture-watch", measure, as_json, as_markdown)
 
 
 def processors() -> int:

@@ -37,6 +37,8 @@ PATH_M2_PER_M, SCALE2_PER_M = 0.025**2, 0.02**2
 SCALE_SD, OTHER_SCALE_SD, MIN_SCALE, MAX_SCALE = 0.2, 0.1, 0.5, 2.0
 DRIFT_S2_PER_S = 0.06**2
 """Variance that the delay gains a second."""
+OUTLIERS = 0.02
+"""Share of pairs of pictures in which other ground is taken for the same."""
 MAX_CHANCE = 3.5
 """Logarithm of how much one picture alone may speak for pictures that do not follow from one another: 30
 times."""
@@ -113,26 +115,35 @@ class PictureMotion:
         self._weights /= self._weights.sum()
         self._spread(AFTER_JUMP)
 
-    def seen(self, before_m: Floats, after_m: Floats, seen_m: Floats, apart_s: float, chance: float) -> None:
+    def seen(
+        self,
+        before_m: Floats,
+        after_m: Floats,
+        seen_m: Floats,
+        apart_s: float,
+        reach_m2: float,
+        chance: float,
+    ) -> None:
         """Take in how the ground moved from one picture to the next.
 
         before_m, after_m: shape (2, n), along and across the view: where the wheels say that the view was, by
         each delay, when the two pictures were taken; seen_m: shape (2,), how the view moved over the ground
-        by them. chance: logarithm of how likely two pictures that do not belong together are to show that
-        motion and to look so alike, over how likely two that do are to look so alike.
+        by them, found within an area of reach_m2. chance: logarithm of how likely two pictures that do not
+        belong together are to look so alike, over how likely two that do are.
         """
         moved_m = np.hypot(*(after_m - before_m)[:, 0])
         came = self._mix(before_m, after_m, np.asarray(seen_m), apart_s)
         self._scale2 += SCALE2_PER_M * moved_m
         self._lag2 += PATH_M2_PER_M * moved_m
-        gains = self._correct()
+        gains = self._correct(OUTLIERS / reach_m2)
         believed = float(np.log(came @ np.exp(gains - gains.max()))) + float(gains.max())
-        gains = np.append(gains, min(chance, believed + MAX_CHANCE))
+        unrelated = min(chance - np.log(reach_m2), believed + MAX_CHANCE)
+        gains = np.append(gains, unrelated)
         weights = np.append(came, self._weights[-1]) * np.exp(gains - gains.max())
         self._weights = weights / weights.sum()
         self._raise(np.full(_ALL + 1, IMPOSSIBLE))
         self._renew()
-        if chance - believed > SURPRISE:
+        if unrelated - believed > SURPRISE:
             self._spread(AFTER_JUMP)
 
     def _spread(self, share: float) -> None:
@@ -163,16 +174,21 @@ class PictureMotion:
         self._lag2 = (share * (lag2 + off_lag**2)).sum(axis=1)
         return np.asarray(came)
 
-    def _correct(self) -> Floats:
-        """The lag was none but for the shaking; the logarithms of how likely that was, shape (all,)."""
+    def _correct(self, outlier_per_m2: float) -> Floats:
+        """The lag was none but for the shaking; the logarithms of how likely that was, shape (all,).
+
+        One pair of pictures may be taken wrongly, for plants a plant's spacing apart: it then corrects
+        little, and speaks little against any hypothesis.
+        """
         expected = self._lag2 + SHAKING_M2
-        likelihood = (-0.5 * (self._lag**2 / expected + np.log(2 * np.pi * expected))).sum(axis=0)
-        gain_scale, gain_lag = self._both / expected, self._lag2 / expected
+        fits = np.exp((-0.5 * (self._lag**2 / expected + np.log(2 * np.pi * expected))).sum(axis=0))
+        share = fits / (fits + outlier_per_m2)
+        gain_scale, gain_lag = share * self._both / expected, share * self._lag2 / expected
         self._scale = (self._scale - gain_scale * self._lag).clip(MIN_SCALE, MAX_SCALE)
-        self._lag = self._lag - gain_lag * self._lag
         self._scale2 = self._scale2 - gain_scale * self._both
+        self._lag = self._lag - gain_lag * self._lag
         self._both, self._lag2 = self._both * (1 - gain_lag), self._lag2 * (1 - gain_lag)
-        return np.asarray(likelihood)
+        return np.asarray(np.log(fits + outlier_per_m2))
 
     def _renew(self) -> None:
         """What is next to impossible begins anew, with the scale that is believed in."""

@@ -16,6 +16,8 @@ STANDING_M = 0.02
 """Less than this within the longest delay is no motion: a picture of it shows none either."""
 SHAKE_M = 0.05
 """By which shaking moves the ground from one picture to the next, at most."""
+MAX_MOVED_M = 0.11
+"""After more, plants one spacing apart may be taken for each other."""
 MAX_APART_S = 0.5
 """Pictures further apart are not compared: a camera that does not guide is not looked at."""
 USUAL_LOSS_PER_S, LEARNT = 0.9, 0.05
@@ -111,7 +113,7 @@ class MotionMonitor:
             return True
         reach_m2 = (2 * (moved_m + SHAKE_M)) ** 2
         seen_m = np.array([seen.ahead_m, seen.left_m])
-        self._belief.seen(before_m, now_m, seen_m, apart_s, chance - log(reach_m2))
+        self._belief.seen(before_m, now_m, seen_m, apart_s, reach_m2, chance)
         return True
 
     def _chance(self, seen: SeenMotion, apart_s: float) -> float:
@@ -128,10 +130,9 @@ class MotionMonitor:
         return log(usual / CHANCE_LOSSES) + loss / usual
 
     def _seen(self, before: View, now: View, moved_m: float) -> SeenMotion | None:
-        max_m = moved_m + SHAKE_M
-        if max_m > self._view.max_motion_m:
+        if moved_m > min(MAX_MOVED_M, self._view.max_motion_m - SHAKE_M):
             return None
-        return self._view.motion(before.ground, now.ground, max_m)
+        return self._view.motion(before.ground, now.ground, moved_m + SHAKE_M)
 
     def _views(
         self, before_s: float, now_s: float, camera: CameraName, track: Track

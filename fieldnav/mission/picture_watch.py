@@ -2,6 +2,7 @@
 
 from math import hypot
 
+import cv2
 import numpy as np
 from numpy.typing import NDArray
 
@@ -56,7 +57,7 @@ class PictureWatch:
         is.
         """
         self._check_size(frame)
-        sample = frame.image[::EVERY_PX, ::EVERY_PX]
+        sample = np.ascontiguousarray(frame.image[::EVERY_PX, ::EVERY_PX])
         found = self._unlit(frame, float(sample.mean())) or self._frozen(
             frame, sample, track.at(frame.stamp_s)
         )
@@ -108,11 +109,13 @@ class PictureWatch:
         """Crop is told from soil by its colour: a grey picture shows no crop, and that is no sign of its
         end."""
         name = f"{frame.camera.value} camera"
-        contrast = float(sample.std(axis=(0, 1)).max())
+        contrast = float(cv2.meanStdDev(sample)[1].max())
         if contrast < CONTRAST:
             said = f"{name}: nothing can be told apart in it, contrast {contrast:.1f}, limit {CONTRAST:.1f}"
             return Trouble(FaultKind.CAMERA_BLIND, said)
-        coloured = float((np.ptp(sample, axis=2) > COLOUR_LEVELS).mean())
+        blue, green, red = cv2.split(sample)
+        colour = cv2.subtract(cv2.max(cv2.max(blue, green), red), cv2.min(cv2.min(blue, green), red))
+        coloured = float((np.asarray(colour) > COLOUR_LEVELS).mean())
         if coloured >= COLOURED_SHARE:
             return None
         said = f"{name}: {coloured:.0%} of the picture has a colour, limit {COLOURED_SHARE:.0%}"

@@ -32,15 +32,23 @@ STILL_CELLS, STILL_LIKENESS = 0.7, 0.95  # the robot's own shadow stands still o
 
 
 @dataclass(frozen=True, slots=True)
+class FineMap:
+    """What is coarser than noise and finer than light: plants, clods, stones; and its standard deviation."""
+
+    cells: Map
+    contrast: float
+
+
+@dataclass(frozen=True, slots=True)
 class GroundMap:
     """What one picture shows of the ground.
 
-    vegetation: excess green, 0 to 255; green, grey: the same, and the brightness, without what is coarse.
+    vegetation: excess green, 0 to 255; green, grey: what is fine in it, and in the brightness.
     """
 
     vegetation: NDArray[np.uint8]
-    green: Map
-    grey: Map
+    green: FineMap
+    grey: FineMap
 
 
 @dataclass(frozen=True, slots=True)
@@ -108,9 +116,9 @@ class GroundView:
         it shows too little.
         """
         reach = min(ceil(max_m / self.cell_m), min(self._size) // 3)
-        if _structured(before.green, after.green, MIN_GREEN):
+        if min(before.green.contrast, after.green.contrast) >= MIN_GREEN:
             return self._found(before.green, after.green, reach)
-        if not _structured(before.grey, after.grey, MIN_GREY):
+        if min(before.grey.contrast, after.grey.contrast) < MIN_GREY:
             return None
         soil = replace(self._found(before.grey, after.grey, reach), by_plants=False)
         still = max(abs(soil.ahead_m), abs(soil.left_m)) < STILL_CELLS * self.cell_m
@@ -131,25 +139,21 @@ class GroundView:
         expected = float((there[edge:-edge, edge:-edge] > GREEN).mean())
         return float((here > GREEN).mean()) / expected if expected >= MIN_COVER else None
 
-    def _found(self, before: Map, after: Map, reach: int) -> SeenMotion:
-        height, width = before.shape
-        middle = np.ascontiguousarray(before[reach : height - reach, reach : width - reach])
-        alike = np.asarray(cv2.matchTemplate(after, middle, cv2.TM_CCOEFF_NORMED), np.float32)
+    def _found(self, before: FineMap, after: FineMap, reach: int) -> SeenMotion:
+        height, width = before.cells.shape
+        middle = np.ascontiguousarray(before.cells[reach : height - reach, reach : width - reach])
+        alike = np.asarray(cv2.matchTemplate(after.cells, middle, cv2.TM_CCOEFF_NORMED), np.float32)
         _, likeness, _, (x, y) = cv2.minMaxLoc(alike)
         down = y + _summit(alike[:, x], y) - reach
         right = x + _summit(alike[y], x) - reach
         return SeenMotion(float(down * self.cell_m), float(right * self.cell_m), float(likeness))
 
 
-def _fine(values: NDArray[np.uint8]) -> Map:
-    """What is coarser than noise and finer than light: plants, clods, stones."""
+def _fine(values: NDArray[np.uint8]) -> FineMap:
     cells = values.astype(np.float32)
     smooth = cv2.GaussianBlur(cells, (0, 0), SMOOTH_CELLS)
-    return np.asarray(smooth - cv2.blur(cells, (COARSE_CELLS, COARSE_CELLS)), np.float32)
-
-
-def _structured(before: Map, after: Map, least: float) -> bool:
-    return float(before.std()) >= least and float(after.std()) >= least
+    fine = np.asarray(smooth - cv2.blur(cells, (COARSE_CELLS, COARSE_CELLS)), np.float32)
+    return FineMap(fine, float(cv2.meanStdDev(fine)[1][0, 0]))
 
 
 def _summit(values: Map, place: int) -> float:
