@@ -28,7 +28,7 @@ UNLIKELY, IMPOSSIBLE = 1e-4, 1e-8
 """Probability of a lie before anything was seen; and the least of any hypothesis: a lie begins at any
 time."""
 AFTER_JUMP, AFTER_PAUSE = 0.3, 1e-3
-"""Probability of any delay after pictures that do not follow from those before: time may have jumped; and
+"""Probability of anything after pictures that do not follow from those before: time may have jumped; and
 after a while in which nobody looked."""
 SHAKING_M2: Floats = np.array([[0.035], [0.025]]) ** 2
 """Variance of the lag along and across the view: a degree rms of pitch and roll, doubled, for it repeats."""
@@ -37,6 +37,8 @@ PATH_M2_PER_M, SCALE2_PER_M = 0.025**2, 0.02**2
 SCALE_SD, OTHER_SCALE_SD, MIN_SCALE, MAX_SCALE = 0.2, 0.1, 0.5, 2.0
 DRIFT_S2_PER_S = 0.06**2
 """Variance that the delay gains a second."""
+LIES_THEN = 0.3
+"""Share of it that is not a delay but a lie: a camera that was turned has jumped as well."""
 OUTLIERS = 0.02
 """Share of pairs of pictures in which other ground is taken for the same."""
 MAX_CHANCE = 3.5
@@ -79,7 +81,7 @@ class PictureMotion:
     def __init__(self) -> None:
         likely = np.exp(-0.5 * (DELAYS_S / LIKELY_DELAY_S) ** 2)
         self._weights: Floats = np.concatenate([likely / likely.sum(), np.zeros(len(Lie))])
-        self._raise(np.full(_ALL + 1, UNLIKELY / _N))
+        self._raise(UNLIKELY)
         self._scale: Floats = np.ones((2, _ALL))
         self._lag: Floats = np.zeros((2, _ALL))
         self._scale2: Floats = np.full((2, _ALL), SCALE_SD**2)
@@ -141,16 +143,19 @@ class PictureMotion:
         gains = np.append(gains, unrelated)
         weights = np.append(came, self._weights[-1]) * np.exp(gains - gains.max())
         self._weights = weights / weights.sum()
-        self._raise(np.full(_ALL + 1, IMPOSSIBLE))
+        self._raise(IMPOSSIBLE)
         self._renew()
         if unrelated - believed > SURPRISE:
             self._spread(AFTER_JUMP)
 
     def _spread(self, share: float) -> None:
-        """Pictures may no longer follow from those before: any delay may have come about."""
+        """Pictures may no longer follow from those before: any delay may have come about, and any of the
+        lies."""
         self.interrupted()
-        delays = self._weights[:_N]
-        self._weights[:_N] = (1 - share) * delays + share * delays.sum() / _N
+        known = self._weights[:_ALL].sum()
+        self._weights[:_ALL] *= 1 - share
+        self._weights[:_N] += share * (1 - LIES_THEN) * known / _N
+        self._weights[_N:_ALL] += share * LIES_THEN * known / (_ALL - _N)
 
     def _mix(self, before_m: Floats, after_m: Floats, seen_m: Floats, apart_s: float) -> Floats:
         """Carry all hypotheses along, those of neighbouring delays mixed; their weights, shape (all,)."""
@@ -199,6 +204,7 @@ class PictureMotion:
         self._lag[:, low], self._both[:, low] = 0.0, 0.0
         self._lag2[:, low] = SHAKING_M2
 
-    def _raise(self, least: Floats) -> None:
-        self._weights = np.maximum(self._weights, least)
+    def _raise(self, least: float) -> None:
+        """No lie becomes less likely than that, nor all delays together."""
+        self._weights = np.maximum(self._weights, np.where(np.arange(_ALL + 1) < _N, least / _N, least))
         self._weights /= self._weights.sum()

@@ -46,11 +46,14 @@ class Eyes:
             for name, camera in cameras.items()
         }
 
-    def look(self, now_s: float, guides: Iterable[CameraName], track: Track) -> dict[CameraName, Frame]:
+    def look(
+        self, now_s: float, guides: Iterable[CameraName], track: Track, heard: bool = True
+    ) -> dict[CameraName, Frame]:
         """The frames, of those cameras that guide, that are new since the last look and can be gone by.
 
-        track: where the robot was when. Raises DriverError for what does not mend by waiting: the wrong size,
-        upside down, pictures that do not show where the robot is.
+        track: where the robot was when; heard: whether the wheels have just said so. Raises DriverError for
+        what does not mend by waiting: the wrong size, upside down, pictures that do not show where the robot
+        is.
         """
         fresh = {}
         for name in guides:
@@ -63,7 +66,7 @@ class Eyes:
             if not -FUTURE_S <= now_s - frame.stamp_s <= self._stale_s:
                 eye.usable, eye.trouble = frame, None  # its age speaks for itself
                 continue
-            eye.trouble = eye.watch.objection(frame, track)
+            eye.trouble = eye.watch.objection(frame, track, heard)
             if eye.trouble is None:
                 eye.usable = fresh[name] = frame
         return fresh

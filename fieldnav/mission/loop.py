@@ -152,7 +152,7 @@ class Mission:
             self.react(now_s, disobedient)
             return
         guides = self.course.behaviours.current.cameras
-        frames = self._eyes.look(now_s, guides, self.travel.track)
+        frames = self._eyes.look(now_s, guides, self.travel.track, self.travel.heard)
         step = self.course.asked(self.course.behaviours.current.step(self._observe(now_s, frames)))
         step = self._explained(now_s, step, guides)
         warning = self._noted(now_s, step, guides)

@@ -25,7 +25,7 @@ USUAL_LOSS_PER_S, LEARNT = 0.9, 0.05
 learnt."""
 CHANCE_LOSSES = 0.65
 """Pictures that do not belong together lose anything up to so much of their likeness."""
-SURE = 0.99
+SURE = 0.999
 """Probability of a lie from which on it is believed."""
 USED_SD = 2.0
 """Standard deviations by which a delay must differ from none before pictures count as taken earlier."""
@@ -77,6 +77,15 @@ class MotionMonitor:
         """Begin anew: a person has seen to the camera."""
         self._belief, self._speed = PictureMotion(), SpeedChange()
 
+    def interrupted(self) -> None:
+        """Pictures or the wheels' word were missing for a moment."""
+        self._belief.interrupted()
+
+    def paused(self) -> None:
+        """Nobody looked for a while: what comes then must be shown by a change of speed."""
+        self._belief.paused()
+        self._speed.paused()
+
     def trouble(self, camera: CameraName, before: View, now: View, track: Track) -> Trouble | None:
         """Why two pictures cannot be what the camera sees, one after the other, as the wheels turn.
 
@@ -85,8 +94,7 @@ class MotionMonitor:
         apart_s = now.stamp_s - before.stamp_s
         views = self._views(before.stamp_s, now.stamp_s, camera, track)
         if apart_s > MAX_APART_S:
-            self._belief.paused()
-            self._speed.paused()
+            self.paused()
             return None
         if _stands(*views):
             self._belief.interrupted()

@@ -50,8 +50,9 @@ class PictureWatch:
         self._changed_s = 0.0
         self._changed_at = Pose()
 
-    def objection(self, frame: Frame, track: Track) -> Trouble | None:
-        """Why a frame must not guide; track: where the robot was when.
+    def objection(self, frame: Frame, track: Track, heard: bool = True) -> Trouble | None:
+        """Why a frame must not guide; track: where the robot was when, and whether the wheels have just said
+        so.
 
         Raises DriverError for what no waiting mends: a picture of the wrong size, or not of where the robot
         is.
@@ -62,6 +63,10 @@ class PictureWatch:
             frame, sample, track.at(frame.stamp_s)
         )
         found = found or self._empty(frame, sample) or self._shown_before(frame, sample, track)
+        if not heard:
+            self._before = None  # what the wheels do is not known: nothing can be held against it
+            self.motion.interrupted()
+            return found
         found = found or self._compared(frame, track)
         if found is not None and found.reaction is not Reaction.HOLD:
             raise DriverError(found.said, found.fault)
@@ -126,6 +131,7 @@ class PictureWatch:
         before = self._before
         if before is not None and frame.stamp_s - before.stamp_s > REMEMBERED_S:
             before = self._before = None
+            self.motion.paused()
         if before is not None:
             there, here = track.at(before.stamp_s), track.at(frame.stamp_s)
             moved_m = hypot(here.x_m - there.x_m, here.y_m - there.y_m)

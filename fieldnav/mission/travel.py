@@ -11,6 +11,8 @@ STANDING_MPS = 0.01
 """Slower than this the robot stands; one motor revolution a minute is 0.5 mm/s. Our choice."""
 STANDING_RPS = 0.01
 """The same for turning, half a degree a second."""
+HEARD_S = 0.1
+"""A module that has been silent for longer may do something else than it said: five reports were lost."""
 KEPT_POSES = 300
 """Six seconds of ticks: longer than pictures may be late that are still told to be so."""
 
@@ -22,6 +24,9 @@ class Travel:
         self._robot = robot
         self._measured_s: float | None = None
         self._known = False
+        self.heard = (
+            False  # whether all modules have spoken just now, so that the pictures can be held against it
+        )
         self.twist: Twist = STANDSTILL
         self.forward_m = 0.0
         self.sideways_m = 0.0
@@ -40,6 +45,7 @@ class Travel:
         dt_s = 0.0 if self._measured_s is None else now_s - self._measured_s
         self._measured_s, self.report = now_s, report
         self._known = len(report.modules) == len(self._robot.modules)
+        self.heard = self._known and all(now_s - said.stamp_s <= HEARD_S for said in report.modules.values())
         if not self._known:
             self.twist = STANDSTILL
             return
