@@ -9,7 +9,7 @@ from fieldnav.messages import CameraName
 from fieldnav.simulation.injection_camera import CameraFault
 
 LATE_S = 0.8
-OLD_S, GROWING_S_PER_S = 3.0, 0.05
+OLD_S = 3.0
 SLOW_HZ, SLOWER_HZ, SLOWER_AFTER_S = 5.0, 3.0, 4.0
 """Frames a second, of fifteen; and after a while fewer still."""
 
@@ -31,7 +31,6 @@ def of_cameras() -> tuple[Injection, ...]:
         _lie(FaultKind.CAMERA_PAST, CameraFault.CLOCK),
         _lie(FaultKind.CAMERA_PAST, CameraFault.IN_TURN),
         _lie(FaultKind.CAMERA_PAST, CameraFault.OLD, OLD_S),
-        _lie(FaultKind.CAMERA_PAST, CameraFault.GROWING, GROWING_S_PER_S),
     )
 
 

@@ -27,7 +27,7 @@ ROBOT = smaller(load_robot("bonnbot"))
 FRAME_S = 1 / ROBOT.cameras.front.rate_hz
 MAX_DELAY_S = ROBOT.timeouts.frame_s
 FOLLOWED_MPS, SIDESTEP_MPS = 0.5, 0.15
-NOTICED_M, TURNED_M = 0.5, 1.0
+NOTICED_M, TURNED_M = 0.5, 1.5
 """Pictures of the past must be found out within so much driving; and pictures that are turned."""
 CROPS = names_of(Kind.CROP)
 SOME_CROPS = ("sugar-beet", "winter-wheat", "maize")
@@ -43,7 +43,7 @@ Shown = Callable[[list[Frame]], Image]
 def field_of(crop: str) -> tuple[TickingWorld, ObedientWheels, dict[CameraName, SimulatedCamera]]:
     """A weedy, windy field of a crop, drawn as it looks, on which the robot shakes."""
     weeds = load_field("sim-dense-weed").weeds.model_dump(mode="json")
-    changes = {"lanes": 1, "length_m": 10, "crop": crop, "wind_mps": 5, "weeds": weeds}
+    changes = {"lanes": 1, "length_m": 18, "crop": crop, "wind_mps": 5, "weeds": weeds}
     field, profile = revised(load_field("demo"), changes), load_crop(crop)
     plan: FieldPlan = sow(field, profile, Side.RIGHT)
     wheels = ObedientWheels(module_errors(field.wheel_errors, field.seed, field.mirrored))
@@ -168,6 +168,22 @@ def test_pictures_that_are_late_by_less_than_the_limit_are_measured_and_allowed_
     delay = drive.watch.motion.delay
     assert delay.mean_s == pytest.approx(late_s, abs=2 * delay.sd_s)
     assert drive.watch.motion.delay_s == delay.mean_s
+
+
+def test_a_delay_that_grows_by_50_ms_a_second_is_found_out_before_the_robot_would_leave_its_lane() -> None:
+    """From a second of delay on the lane is followed worse, by centimetres."""
+    drive = Drive("sugar-beet", FRONT)
+    assert drive.go(1.0) is None
+    begun_s = drive.frames[-1].stamp_s
+
+    def grown_s(frames: list[Frame]) -> float:
+        return 0.05 * (frames[-1].stamp_s - begun_s)
+
+    def shown(frames: list[Frame]) -> Image:
+        return frames[-1 - round(grown_s(frames) / FRAME_S)].image
+
+    assert drive.go(14.0, shown) is FaultKind.CAMERA_PAST
+    assert MAX_DELAY_S < grown_s(drive.frames) < 1.2
 
 
 @pytest.mark.parametrize("crop", SOME_CROPS)
