@@ -81,6 +81,11 @@ class Eyes:
             eye.trouble = trouble
             return None
 
+    def forget(self) -> None:
+        """Nothing that was seen before holds: the mission begins, or begins anew."""
+        for eye in self._eyes.values():
+            eye.watch.forget()
+
     def exposed(self, frames: Mapping[CameraName, Frame], track: Track) -> dict[CameraName, Pose]:
         """Where the robot was when each frame was taken, the camera's measured delay allowed for."""
         return {

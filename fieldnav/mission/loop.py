@@ -81,6 +81,7 @@ class Mission:
 
     def start(self, now_s: float) -> None:
         """Bring the wheels up and begin with the checks."""
+        self._eyes.forget()
         try:
             self.wheels.start(now_s)
         except DriverError as error:

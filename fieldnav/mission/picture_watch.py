@@ -72,6 +72,11 @@ class PictureWatch:
             raise DriverError(found.said, found.fault)
         return found
 
+    def forget(self) -> None:
+        """Begin anew: a person may have moved the robot or hung the camera otherwise."""
+        self._repeated, self._before = RepeatedPictures(), None
+        self.motion.forget()
+
     def _check_size(self, frame: Frame) -> None:
         height, width = frame.image.shape[:2]
         if (width, height) != (self._camera.width_px, self._camera.height_px):

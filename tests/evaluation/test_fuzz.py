@@ -116,7 +116,7 @@ class Racing(ThorvaldWheels):
 
 def test_a_driver_that_moves_though_it_should_stand_is_caught_with_its_frame() -> None:
     prepare = partial(standing_driver, make_wheels=Credulous)
-    bouts = [Bout(Part.DRIVER, index, FRAMES, SEED) for index in range(6)]
+    bouts = [Bout(Part.DRIVER, index, FRAMES, SEED) for index in range(30)]
 
     moved = [fought.motion for fought in (fight(bout, prepare) for bout in bouts) if fought.motion]
 

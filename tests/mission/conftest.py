@@ -3,7 +3,7 @@
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from datetime import UTC, datetime
-from math import radians, tan
+from math import cos, radians, tan
 from pathlib import Path
 
 import can
@@ -34,12 +34,12 @@ DRIVING_S = 2.0
 """Enough to check, to acquire, and to reach the working speed."""
 
 
-def lane_picture(crop: CropProfile) -> Image:
-    """Three rows of leaf discs on bare soil, straight under the robot."""
+def lane_picture(crop: CropProfile, way_m: float = 0.0) -> Image:
+    """Three rows of leaf discs on bare soil, straight under the robot, after some way along them."""
     image = np.full((PINHOLE.height_px, PINHOLE.width_px, 3), (72, 96, 122), np.uint8)
     plane = canopy_plane(PINHOLE, crop)
     for row in (-1, 0, 1):
-        for x in np.arange(0.5, 2.2, crop.plants.spacing_m):
+        for x in np.arange(0.5, 2.4, crop.plants.spacing_m) - way_m % crop.plants.spacing_m:
             u, v = plane.to_image(np.array([x, row * crop.rows.spacing_m]))
             if np.isfinite([u, v]).all():
                 cv2.circle(image, (round(u), round(v)), 32, (50, 150, 70), cv2.FILLED)
@@ -48,10 +48,13 @@ def lane_picture(crop: CropProfile) -> Image:
 
 @dataclass
 class DrawnCamera:
-    """A camera that sees the same lane for ever, until it is told to do otherwise."""
+    """A camera that sees a lane without end, until it is told to do otherwise; way_m: come so far along
+    it."""
 
     name: CameraName
-    image: Image
+    crop: CropProfile
+    image: Image | None = None
+    way_m: float = 0.0
     frozen_at_s: float | None = None
     broken: bool = False
 
@@ -68,8 +71,9 @@ class DrawnCamera:
 
     def _noisy(self, sequence: int) -> Image:
         """A sensor's noise never comes twice."""
-        noisy = self.image.copy()
-        noisy[::2, ::2] += np.uint8(sequence % 2)
+        noisy = lane_picture(self.crop, self.way_m) if self.image is None else self.image.copy()
+        few = noisy[::8, ::8]
+        few += np.random.default_rng(sequence).integers(0, 3, few.shape).astype(np.uint8)
         return noisy
 
     def close(self) -> None:
@@ -97,7 +101,7 @@ class Rig:
         self.far = far
         self.modules = SimulatedModules(robot, far)
         self.wheels = ThorvaldWheels(robot, host)
-        self.cameras = {name: DrawnCamera(name, lane_picture(crop)) for name in CameraName}
+        self.cameras = {name: DrawnCamera(name, crop) for name in CameraName}
         self.journal = FullDisk(folder / "journal.jsonl", datetime(2000, 1, 1, tzinfo=UTC))
         self._path = folder / "journal.jsonl"
         task = Task(crop, dict.fromkeys(CameraName, PINHOLE), Side.RIGHT, lanes=1)
@@ -115,8 +119,7 @@ class Rig:
 
     def run(self, seconds: float) -> None:
         for _ in range(round(seconds / TICK_S)):
-            self.now_s += TICK_S
-            self.modules.step(self.now_s)
+            self._roll()
             self.mission.tick(self.now_s)
 
     def proposes(self, event: Event) -> None:
@@ -126,8 +129,16 @@ class Rig:
     def coast(self, seconds: float) -> None:
         """Let the modules go on without the host."""
         for _ in range(round(seconds / TICK_S)):
-            self.now_s += TICK_S
-            self.modules.step(self.now_s)
+            self._roll()
+
+    def _roll(self) -> None:
+        """Let the modules go on for a tick, and the cameras with them."""
+        self.now_s += TICK_S
+        self.modules.step(self.now_s)
+        speeds = [state.speed_mps * cos(state.steering_rad) for state in self.modules.wheel_states().values()]
+        for name, camera in self.cameras.items():
+            looking = 1 if name is CameraName.FRONT else -1
+            camera.way_m += looking * sum(speeds) / len(speeds) * TICK_S
 
     def fastest_mps(self) -> float:
         return max(abs(wheel.speed_mps) for wheel in self.modules.wheel_states().values())

@@ -140,7 +140,7 @@ def test_pictures_tell_when_the_assumed_speed_is_off(
 ) -> None:
     done = replayed(recordings.mcap(), **BOTH, speed_mps=speed_mps)
 
-    assert done["ground_share"] == pytest.approx(share, rel=0.06)
+    assert done["ground_share"] == pytest.approx(share, rel=0.09)  # plants stand up from the ground
     hint = [note for note in done["notes"] if note.startswith("by the pictures the ground moves at")]
     assert [note.split("; ")[-1] for note in hint] == (
         [] if speed_mps == 0.5 else [f"--speed {done['ground_share'] * speed_mps:.2f} would fit"]
@@ -155,6 +155,7 @@ def test_pictures_that_do_not_move_are_told(drive: Any, replayed: Replayed, tmp_
         noise = random.integers(0, 3, picture.shape, np.uint8)  # without any a camera is frozen
         cv2.imwrite(str(folder / f"{number}.png"), picture + noise)
 
-    done = replayed(str(folder), rate_hz=15.0)
+    done = replayed(str(folder), rate_hz=15.0, status=1)
 
-    assert any("it does not move forward" in note for note in done["notes"])
+    reason = done["transitions"][-1]["reason"]
+    assert reason.startswith("camera shows the past: front camera: ")
