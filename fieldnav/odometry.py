@@ -1,7 +1,7 @@
 """A pose on the ground, and the poses that a robot lately had: dead reckoning from twists."""
 
 from dataclasses import dataclass
-from math import cos, sin
+from math import cos, hypot, sin
 
 import numpy as np
 
@@ -26,6 +26,10 @@ class Pose:
             self.y_m + ahead * sin(heading) + left * cos(heading),
             self.heading_rad + turn,
         )
+
+    def distance_m(self, other: "Pose") -> float:
+        """How far the centres are apart."""
+        return hypot(other.x_m - self.x_m, other.y_m - self.y_m)
 
     def between(self, later: "Pose", share: float) -> "Pose":
         """The pose at a share of the way to a later one."""

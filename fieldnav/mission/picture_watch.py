@@ -1,7 +1,5 @@
 """Whether a camera's pictures can be gone by: lit, alive, in colour, and showing what must be in view."""
 
-from math import hypot
-
 import cv2
 import numpy as np
 from numpy.typing import NDArray
@@ -59,15 +57,14 @@ class PictureWatch:
         """
         self._check_size(frame)
         sample = np.ascontiguousarray(frame.image[::EVERY_PX, ::EVERY_PX])
-        found = self._unlit(frame, float(sample.mean())) or self._frozen(
-            frame, sample, track.at(frame.stamp_s)
-        )
-        found = found or self._empty(frame, sample) or self._shown_before(frame, sample, track)
+        pose = track.at(frame.stamp_s)
+        found = self._unlit(frame, float(sample.mean())) or self._frozen(frame, sample, pose)
+        found = found or self._empty(frame, sample) or self._shown_before(frame, sample, pose)
         if not heard:
             self._before = None  # what the wheels do is not known: nothing can be held against it
             self.motion.interrupted()
             return found
-        found = found or self._compared(frame, track)
+        found = found or self._compared(frame, pose, track)
         if found is not None and found.reaction is not Reaction.HOLD:
             raise DriverError(found.said, found.fault)
         return found
@@ -101,15 +98,15 @@ class PictureWatch:
             self._sample, self._image = sample, frame.image
             self._changed_s, self._changed_at = frame.stamp_s, pose
             return None
-        driven_m = hypot(pose.x_m - self._changed_at.x_m, pose.y_m - self._changed_at.y_m)
+        driven_m = self._changed_at.distance_m(pose)
         same_s = frame.stamp_s - self._changed_s
         if driven_m <= FROZEN_M and same_s <= FROZEN_S:
             return None
         said = f"{frame.camera.value} camera: the same picture for {same_s:.2f} s and {driven_m:.2f} m"
         return Trouble(FaultKind.CAMERA_FROZEN, said)
 
-    def _shown_before(self, frame: Frame, sample: NDArray[np.uint8], track: Track) -> Trouble | None:
-        age_s = self._repeated.age_s(sample, frame.stamp_s, track.at(frame.stamp_s))
+    def _shown_before(self, frame: Frame, sample: NDArray[np.uint8], pose: Pose) -> Trouble | None:
+        age_s = self._repeated.age_s(sample, frame.stamp_s, pose)
         if age_s is None:
             return None
         said = f"{frame.camera.value} camera: it shows pictures again that it showed {age_s:.1f} s ago"
@@ -131,15 +128,14 @@ class PictureWatch:
         said = f"{name}: {coloured:.0%} of the picture has a colour, limit {COLOURED_SHARE:.0%}"
         return Trouble(FaultKind.CAMERA_BLIND, said)
 
-    def _compared(self, frame: Frame, track: Track) -> Trouble | None:
+    def _compared(self, frame: Frame, pose: Pose, track: Track) -> Trouble | None:
         """Hold the picture against an earlier one, by what the wheels say of the way between."""
         before = self._before
         if before is not None and frame.stamp_s - before.stamp_s > REMEMBERED_S:
             before = self._before = None
             self.motion.paused()
         if before is not None:
-            there, here = track.at(before.stamp_s), track.at(frame.stamp_s)
-            moved_m = hypot(here.x_m - there.x_m, here.y_m - there.y_m)
+            moved_m = track.at(before.stamp_s).distance_m(pose)
             if moved_m < COMPARED_M and frame.stamp_s - before.stamp_s < COMPARED_S:
                 return None
         now = View(self._view.look(frame.image), frame.stamp_s)

@@ -3,7 +3,6 @@ now."""
 
 from collections import deque
 from dataclasses import dataclass
-from math import hypot
 from zlib import crc32
 
 import numpy as np
@@ -43,13 +42,16 @@ class RepeatedPictures:
         last = self._shown[-1] if self._shown else None
         if last is not None and last.check == now.check:
             return None
-        found = next((each for each in self._shown if each.check == now.check and _moved(each, now)), None)
+        found = next(
+            (
+                each
+                for each in self._shown
+                if each.check == now.check and each.pose.distance_m(pose) >= MOVED_M
+            ),
+            None,
+        )
         self._repeated = self._repeated + 1 if found else 0
         self._shown.append(now)
         while stamp_s - self._shown[0].stamp_s > REMEMBERED_S:
             self._shown.popleft()
         return stamp_s - found.stamp_s if found and self._repeated >= MIN_REPEATED else None
-
-
-def _moved(before: _Shown, now: _Shown) -> bool:
-    return hypot(now.pose.x_m - before.pose.x_m, now.pose.y_m - before.pose.y_m) >= MOVED_M

@@ -21,7 +21,6 @@ class CameraFault(Enum):
     CLOCK = "frozen, with a running clock in the picture"
     IN_TURN = "two old pictures in turn"
     OLD = "old pictures with new stamps"
-    GROWING = "pictures that grow older than their stamps"
     BLACK = "black"
     WHITE = "white"
     COLOURLESS = "without colour"
@@ -92,17 +91,16 @@ REPAINTED: dict[CameraFault, Callable[[Image], Image]] = {
 
 @dataclass(frozen=True, slots=True)
 class _Broken:
-    """A fault from some time on; measure: seconds late, or later a second, or frames a second."""
+    """A fault from some time on; measure: seconds late, or frames a second."""
 
     fault: CameraFault
     from_s: float
     until_s: float
     measure: float
 
-    def delay_s(self, now_s: float) -> float:
-        """By how much a picture taken now is older than its stamp."""
-        if self.fault is CameraFault.GROWING:
-            return self.measure * (now_s - self.from_s)
+    @property
+    def delay_s(self) -> float:
+        """By how much a picture is older than its stamp."""
         return self.measure if self.fault is CameraFault.OLD else 0.0
 
 
@@ -122,8 +120,7 @@ class FaultyCamera:
     def break_by(
         self, fault: CameraFault, now_s: float, until_s: float = float("inf"), measure: float = 0.0
     ) -> None:
-        """From now on until a time: the fault; measure: seconds late, or later a second, or frames a
-        second."""
+        """From now on until a time: the fault; measure: seconds late, or frames a second."""
         if self._taken:
             newest_s = self._taken[-1].stamp_s
             earlier_s = newest_s - (TURN_S if fault is CameraFault.IN_TURN else 0.0)
@@ -151,7 +148,7 @@ class FaultyCamera:
         self._taken.append(plain)
         while plain.stamp_s - self._taken[0].stamp_s > KEPT_S:
             self._taken.popleft()
-        shown = self._at(plain.stamp_s - max((each.delay_s(plain.stamp_s) for each in broken), default=0.0))
+        shown = self._at(plain.stamp_s - max((each.delay_s for each in broken), default=0.0))
         self._given = self._made(plain, shown.image, broken)
         if not faults & BLIND:
             self.good_s = shown.stamp_s
