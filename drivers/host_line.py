@@ -24,6 +24,7 @@ class HostLine:
         self._bus, self._own = bus, OwnFrames()
         self._watch = BusWatch(settings)
         self._layout = wire_layout()
+        self._refused = ""
         self.sequence = 0
 
     def received(self, now_s: float) -> Iterator[Telegram]:
@@ -74,6 +75,11 @@ class HostLine:
         values = {"Command": SdoCommand.WRITE_1_BYTE, "Index": entry, "Subindex": 0, "Value": 1}
         self._send(now_s, module.node_id, Kind.SDO_REQUEST, **values)
 
+    def check(self) -> None:
+        """Raise once more what the last frame met with, if it did not go out."""
+        if self._refused:
+            raise DriverError(self._refused)
+
     def close(self) -> None:
         self._bus.shutdown()
 
@@ -82,7 +88,9 @@ class HostLine:
         try:
             self._own.send(self._bus, frame)
         except BUS_ERRORS as error:
-            raise DriverError(f"CAN bus cannot be written: {said(error)}") from error
+            self._refused = f"CAN bus cannot be written: {said(error)}"
+            raise DriverError(self._refused) from error
+        self._refused = ""
 
     def _next_frame(self) -> can.Message | None:
         try:

@@ -107,7 +107,7 @@ class ThorvaldWheels:
             if now_s - self._heartbeat_s >= self._timeouts.heartbeat_s - TOLERANCE_S:
                 self._beat(now_s)
             self._excuse_own_stop(now_s)
-            check_modules(self._links.values(), now_s, self._starting_s, self._timeouts.module_s)
+            self._check_modules(now_s)
         reports = {wheel: link.report for wheel, link in self._links.items()}
         said = {wheel: report for wheel, report in reports.items() if report is not None}
         return WheelReport(said, self._charge_percent)
@@ -155,6 +155,14 @@ class ThorvaldWheels:
 
     def close(self) -> None:
         self._line.close()
+
+    def _check_modules(self, now_s: float) -> None:
+        try:
+            check_modules(self._links.values(), now_s, self._starting_s, self._timeouts.module_s)
+        except DriverError as error:
+            if error.fault is FaultKind.MODULE_SILENT:
+                self._line.check()  # who cannot be reached cannot be blamed for silence
+            raise
 
     def _receive(self, now_s: float) -> bool:
         """Drain the bus; whether a module came back from silence or from a reboot."""

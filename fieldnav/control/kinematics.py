@@ -90,6 +90,8 @@ def _turned(
     if speed_mps < STILL_MPS:
         return WheelSetpoint(0.0, present_rad)
     along_rad = atan2(velocity_mps[1], velocity_mps[0])
+    if abs(along_rad) == pi:  # straight back is on both sides; it is nearer on the wheel's own
+        along_rad = copysign(pi, present_rad)
     against_rad = along_rad - copysign(pi, along_rad)
     if _inverts(along_rad, against_rad, present_rad, limits, steering_limit_rad):
         return WheelSetpoint(-speed_mps, against_rad)

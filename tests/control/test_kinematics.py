@@ -1,7 +1,7 @@
 from math import atan2, cos, degrees, hypot, pi, radians, sin
 
 import pytest
-from hypothesis import assume, given
+from hypothesis import assume, example, given
 from hypothesis import strategies as st
 
 from fieldnav.control.kinematics import body_twist, wheel_setpoints
@@ -68,6 +68,7 @@ def test_every_wheel_is_perpendicular_to_its_line_from_the_centre_of_rotation(tw
 
 
 @given(twists, presents, st.sampled_from(Steering))
+@example(Twist(-0.5, 0.0, 0.0), STRAIGHT | {Wheel.REAR_LEFT: 3.0}, OMNI)
 def test_a_mirrored_twist_gives_mirrored_wheels(twist, present, steering):
     assume(all(place_speed(twist, wheel) > 1e-3 for wheel in Wheel))
     mirrored_present = {OTHER_SIDE[wheel]: -angle for wheel, angle in present.items()}

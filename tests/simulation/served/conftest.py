@@ -68,7 +68,7 @@ def served(offer: Offer, clock: Clock) -> Iterator[ServedRobot]:
     """In real time, in a thread of its own, as in a process of its own."""
     stopping = Event()
     with ServedRobot(offer, clock) as robot:
-        thread = Thread(target=robot.serve, args=(stopping,))
+        thread = Thread(target=robot.serve, args=(stopping.is_set,))
         thread.start()
         yield robot
         stopping.set()
