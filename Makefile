@@ -4,6 +4,7 @@
 # make test-backends  SocketCAN and RTSP, with what Debian's packages offer; says what it lacks, installs nothing
 # make test-package   builds sdist and wheel; the wheel, alone in an environment of its own, drives a lane
 # make clean  remove what these made
+# What the tests of a file share is made once: they go to one process, hence --dist loadfile.
 # The only needs are Python 3.11 or newer and make. PYTHON=python3.12 names another interpreter.
 
 PYTHON ?= python3
@@ -28,13 +29,13 @@ test: .venv/installed-dev
 	$(BIN)/ruff format --check .
 	$(BIN)/mypy
 	$(BIN)/lint-imports
-	$(BIN)/pytest -n 2
+	$(BIN)/pytest -n 2 --dist loadfile
 
 test-lowest: .venv-lowest/installed
-	$(LOWEST)/pytest -n 2
+	$(LOWEST)/pytest -n 2 --dist loadfile
 
 test-lowest-share: .venv-lowest/installed
-	$(LOWEST)/pytest -n 2 $(LOWEST_SHARE)
+	$(LOWEST)/pytest -n 2 --dist loadfile $(LOWEST_SHARE)
 
 test-backends: .venv/installed-dev
 	$(BIN)/pytest -v -rs tests/backends/test_rtsp.py
