@@ -1,4 +1,4 @@
-"""For all tests: a machine that others use, too, is no fault of the code's, nor is how the tests were begun."""
+"""For all tests: a machine that others use is no fault of the code's, nor is how the tests were begun."""
 
 import signal
 

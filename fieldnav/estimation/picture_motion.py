@@ -95,6 +95,11 @@ class PictureMotion:
         mean_s = float(weights @ DELAYS_S)
         return Delay(mean_s, float(np.sqrt(weights @ (DELAYS_S - mean_s) ** 2)))
 
+    @property
+    def followed(self) -> float:
+        """Probability that the pictures show the ground as it moves, however late."""
+        return float(self._weights[:_N].sum())
+
     def later_than(self, limit_s: float) -> float:
         """Probability that the pictures show the ground, but later than that."""
         return float(self._weights[:_N][limit_s < DELAYS_S].sum())

@@ -18,7 +18,9 @@ Strike = Callable[[Rig], None]
 
 @dataclass(frozen=True, slots=True)
 class Injection:
-    """A way in which a fault occurs; passing: for PASSES_S alone; also: what it may be called at first.
+    """A way in which a fault occurs; passing: for PASSES_S alone.
+
+    also: what it may be called at first; instead: what it may be called as rightly, and be stopped for.
 
     lasts_s: after so long it is over by itself, and nothing may move for that.
     """
@@ -29,6 +31,7 @@ class Injection:
     called: str = ""
     passing: bool = False
     also: frozenset[FaultKind] = frozenset()
+    instead: frozenset[FaultKind] = frozenset()
     lasts_s: float = 0.0
 
     @property

@@ -1,15 +1,16 @@
 """Whether a pair has ended as declared, and if not, what went wrong in one line."""
 
+from collections import deque
 from itertools import pairwise
 from math import isnan
 
 from drivers.simulated_module import WATCHDOG_S
 from drivers.simulated_motion import DRIVE_RAMP_MPS2
-from fieldnav.evaluation.faults_expected import TARGETS, TOLD_AT_REST, Expected
+from fieldnav.evaluation.faults_expected import MOVING, TARGETS, TOLD_AT_REST, Expected
 from fieldnav.evaluation.faults_injection import BROKEN, PASSES_S, Injection
 from fieldnav.evaluation.faults_rig import Rig
 from fieldnav.evaluation.faults_witness import Moment, Witness
-from fieldnav.faults import FaultKind
+from fieldnav.faults import FAULTS, FaultKind
 from fieldnav.mission.loop import TICK_S
 from states.names import text
 from states.table import FINISHED, LATCHED, PAUSED, RECOVERABLE
@@ -18,6 +19,8 @@ MOST_OFFSET_M = 0.3
 """Further from the lane's middle the robot has left it."""
 SLOWER_SHARE, SLOWED_AFTER_S, ASKED_MPS, NOTHING_MPS = 0.75, 3.0, 0.05, 0.01
 """At five frames a second two thirds of the speed are left; so long after it has been told that is so."""
+RAMP_S = 0.5
+"""So long the gate may take from one speed to the next that is wanted."""
 SPARE_S = 2 * TICK_S
 """Of a watchdog: the delay of the bus and the modules' own tick."""
 STOPPED = (PAUSED, RECOVERABLE, LATCHED)
@@ -58,19 +61,19 @@ def _otherwise(  # noqa: PLR0911 - one a way to end
 
 
 def _ends(rig: Rig, injection: Injection, wanted: Expected, witness: Witness) -> str:
-    target = TARGETS[wanted]
+    targets = {TARGETS[wanted], *(TARGETS[MOVING[FAULTS[each].reaction]] for each in injection.instead)}
     if injection.fault is FaultKind.DISK_FULL and rig.broken_off and witness.stands:
         return _silent(injection, witness)  # the run is over, whatever state could still be written down
     if injection.fault is FaultKind.STEERING_STUCK and rig.leaf == FINISHED:
         return ""  # it never had to turn any more
-    if rig.leaf != target:
-        because = rig.paper.lines()[-1].reason
-        return f"ended in {text(rig.leaf)}, not in {text(target)}; the journal's last: {because or 'nothing'}"
+    if rig.leaf not in targets:
+        because = rig.paper.lines()[-1].reason or "nothing"
+        return f"ended in {text(rig.leaf)}, not in {text(TARGETS[wanted])}; the journal's last: {because}"
     return _silent(injection, witness) or ("" if witness.stands else "the wheels do not stand")
 
 
 def _silent(injection: Injection, witness: Witness) -> str:
-    if witness.noticed(frozenset({injection.fault})) is not None:
+    if witness.noticed(injection.instead | {injection.fault}) is not None:
         return ""
     last = next((line.reason for line in reversed(witness.lines()) if line.reason), "nothing")
     return f"the journal does not name it, but says: {last}"
@@ -95,7 +98,12 @@ def _stamps(rig: Rig) -> str:
 def _slower(rig: Rig, witness: Witness) -> str:
     line = next(line for line in witness.lines() if line.event == FaultKind.CAMERA_SLOW.value)
     slowed = [each for each in witness.moments if _must_be_slow(each, line.stamp_s + SLOWED_AFTER_S, witness)]
-    fast = [each for each in slowed if each.passed_mps > SLOWER_SHARE * each.wanted_mps + NOTHING_MPS]
+    wanted_mps = deque[float](maxlen=round(RAMP_S / TICK_S))
+    fast = []
+    for each in slowed:
+        wanted_mps.append(each.wanted_mps)
+        if each.passed_mps > SLOWER_SHARE * max(wanted_mps) + NOTHING_MPS:
+            fast.append(each)
     if fast:
         return f"{fast[0].passed_mps:.2f} m/s of {fast[0].wanted_mps:.2f} in {text(fast[0].leaf)}"
     return f"stopped in {text(rig.leaf)}: {rig.paper.lines()[-1].reason}" if rig.leaf in STOPPED else ""

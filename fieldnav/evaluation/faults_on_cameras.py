@@ -10,6 +10,8 @@ from fieldnav.simulation.injection_camera import CameraFault
 
 LATE_S = 0.8
 OLD_S = 3.0
+NOT_OF_NOW = frozenset({FaultKind.CAMERA_FROZEN, FaultKind.FRAMES_LATE})
+"""What pictures of the past are as well: a camera that has just begun to lag shows one and the same."""
 SLOW_HZ, SLOWER_HZ, SLOWER_AFTER_S = 5.0, 3.0, 4.0
 """Frames a second, of fifteen; and after a while fewer still."""
 
@@ -41,7 +43,11 @@ def _injection(kind: FaultKind, fault: CameraFault, measure: float = 0.0) -> Inj
 def _lie(kind: FaultKind, fault: CameraFault, measure: float = 0.0) -> Injection:
     """Pictures that may well be taken for good ones."""
     return Injection(
-        kind, partial(_break, fault=fault, measure=measure), _mend, called=f"camera: {fault.value}"
+        kind,
+        partial(_break, fault=fault, measure=measure),
+        _mend,
+        called=f"camera: {fault.value}",
+        instead=NOT_OF_NOW if kind is FaultKind.CAMERA_PAST else frozenset(),
     )
 
 

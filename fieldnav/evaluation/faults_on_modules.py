@@ -16,6 +16,8 @@ WEAK_SHARE = 0.6
 """Of its set-point, which a drive that drags along still reaches."""
 LATE = frozenset({FaultKind.MODULE_LATE})
 """What a module that falls silent is at first."""
+WEAK = frozenset({FaultKind.DRIVE_WEAK})
+"""What a module in another mode is as well: its wheel is looked at in every round, its mode now and then."""
 
 
 def of_modules() -> tuple[Injection, ...]:
@@ -28,8 +30,10 @@ def of_modules() -> tuple[Injection, ...]:
         *map(_pressed_for, PRESSED_S),
         Injection(FaultKind.MODULE_FAILED, _stall),
         Injection(FaultKind.MODULE_UNHEALTHY, _sag, _recover),
-        Injection(FaultKind.MODULE_MODE, partial(_change_mode, mode=Mode.DECOUPLED)),
-        Injection(FaultKind.MODULE_MODE, partial(_change_mode, mode=Mode.HOME), called="module homes"),
+        Injection(FaultKind.MODULE_MODE, partial(_change_mode, mode=Mode.DECOUPLED), instead=WEAK),
+        Injection(
+            FaultKind.MODULE_MODE, partial(_change_mode, mode=Mode.HOME), called="module homes", instead=WEAK
+        ),
         Injection(FaultKind.MODULE_OTHER, _change_constants),
         Injection(FaultKind.STEERING_STUCK, _stick),
         Injection(FaultKind.DRIVE_RUNAWAY, _run_away),

@@ -125,6 +125,8 @@ class Rig:
         self.now_s = self._ticks * TICK_S
         self.world.advance(self.now_s)
         self.intruder.step(self.now_s)
+        for camera in self.cameras.values():
+            camera.take(self.now_s)
         if not (self.killed or any(from_s < self.now_s < to_s for from_s, to_s in self.absent)):
             self.guided_by = self.guides
             self.guarded(self._mission_round)

@@ -9,7 +9,7 @@ from fieldnav.faults import FaultKind
 from fieldnav.journal.entry import Line
 from fieldnav.messages import CameraName, Twist
 from fieldnav.mission.picture_watch import FROZEN_M
-from states.names import Path, Phase
+from states.names import Follow, Path, Phase
 from states.table import LANE_LEAVES
 
 STANDS_MPS = 0.01
@@ -126,7 +126,11 @@ class Witness:
         gone_by_m = self._rig.crop.speeds.follow_mps * seconds
         if self._injection.fault is FaultKind.CAMERA_FROZEN:
             return FROZEN_M + gone_by_m
-        return PAST_M if self._injection.fault is FaultKind.CAMERA_PAST else 0.0
+        if self._injection.fault is not FaultKind.CAMERA_PAST:
+            return 0.0
+        # Without rows in view the robot goes by its wheels alone, and its profile says how far.
+        coasting = Follow.COASTING in self.leaf
+        return PAST_M + (self._rig.crop.row_end.longest_gap_m if coasting else 0.0)
 
     def _look_where(self) -> None:
         """How far from the middle of the lane the robot is, while it follows or leaves one."""

@@ -29,6 +29,8 @@ SURE = 0.999
 """Probability of a lie from which on it is believed."""
 USED_SD = 2.0
 """Standard deviations by which a delay must differ from none before pictures count as taken earlier."""
+LIKELIER = 0.5
+"""Probability of pictures that show the ground as it moves from which on they have a delay."""
 STEADY_M = 6.0
 """Driven at one speed, in which a delay that grows could have hidden: then the speed is changed."""
 PROBE_S, PROBE_SHARE, PROBED_MPS = 1.0, 0.5, 0.25
@@ -64,9 +66,13 @@ class MotionMonitor:
 
     @property
     def delay_s(self) -> float:
-        """The delay to be allowed for: the measured one where it is surely there, 0 otherwise."""
+        """The delay to be allowed for: the measured one where it is surely there, 0 otherwise.
+
+        Pictures that more likely do not show the ground as it moves have none.
+        """
         delay = self._belief.delay
-        return delay.mean_s if delay.mean_s > USED_SD * delay.sd_s else 0.0
+        there = delay.mean_s > USED_SD * delay.sd_s and self._belief.followed > LIKELIER
+        return delay.mean_s if there else 0.0
 
     @property
     def speed_share(self) -> float:

@@ -130,6 +130,14 @@ class FaultyCamera:
     def mend(self) -> None:
         self._broken.clear()
 
+    def take(self, now_s: float) -> None:
+        """Look on, as a camera does whether it is asked or not: what it has seen it may give later."""
+        plain = self._camera.latest(now_s)
+        if plain is not None and not (self._taken and plain is self._taken[-1]):
+            self._taken.append(plain)
+            while plain.stamp_s - self._taken[0].stamp_s > KEPT_S:
+                self._taken.popleft()
+
     def latest(self, now_s: float) -> Frame | None:
         """The newest frame as the broken camera gives it. Raises DriverError while it is unplugged."""
         broken = [each for each in self._broken if each.from_s <= now_s < each.until_s]
@@ -145,9 +153,7 @@ class FaultyCamera:
             return self._given
         self._next_s = plain.stamp_s + (1 / min(slow) if slow else 0.0)
         self._made_of = plain
-        self._taken.append(plain)
-        while plain.stamp_s - self._taken[0].stamp_s > KEPT_S:
-            self._taken.popleft()
+        self.take(now_s)
         shown = self._at(plain.stamp_s - max((each.delay_s for each in broken), default=0.0))
         self._given = self._made(plain, shown.image, broken)
         if not faults & BLIND:

@@ -27,7 +27,7 @@ ROBOT = smaller(load_robot("bonnbot"))
 FRAME_S = 1 / ROBOT.cameras.front.rate_hz
 MAX_DELAY_S = ROBOT.timeouts.frame_s
 FOLLOWED_MPS, SIDESTEP_MPS = 0.5, 0.15
-NOTICED_M, TURNED_M = 0.5, 1.5
+NOTICED_M, TURNED_M = 0.5, 1.8
 """Pictures of the past must be found out within so much driving; and pictures that are turned."""
 CROPS = names_of(Kind.CROP)
 SOME_CROPS = ("sugar-beet", "winter-wheat", "maize")
@@ -112,9 +112,11 @@ def turned(frames: list[Frame]) -> Image:
     return np.ascontiguousarray(frames[-1].image[::-1, ::-1])
 
 
-def with_clock(image: Image, count: int) -> Image:
-    shown = image.copy()
-    shown[:20, : 8 * (1 + count % 10)] = 255
+def with_clock(image: Image, count: int, share: float = 0.02) -> Image:
+    """A bar that grows and starts over, in a box across the picture that is so much of it."""
+    shown, height = image.copy(), round(share * len(image))
+    shown[:height] = np.random.default_rng(count).integers(0, 99, shown[:height].shape)
+    shown[:height, : 8 * (1 + count % 10)] = 255
     return shown
 
 
@@ -133,7 +135,17 @@ def test_a_frozen_picture_with_a_running_clock_in_it_is_found_out(crop: str) -> 
     drive = Drive(crop, FRONT)
     assert drive.go(1.0) is None
     still = drive.frames[-1].image
-    fault = drive.go(2.0, lambda frames: with_clock(still, len(frames)))
+    assert drive.go(0.1, lambda frames: with_clock(still, len(frames))) is None
+    assert {each.fault for each in drive.said} == {FaultKind.CAMERA_FROZEN}
+    assert "the same picture, but for 2% of it, for" in drive.said[0].said
+
+
+@pytest.mark.parametrize("crop", SOME_CROPS)
+def test_a_frozen_picture_of_which_much_runs_on_is_found_out(crop: str) -> None:
+    drive = Drive(crop, FRONT)
+    assert drive.go(1.0) is None
+    still = drive.frames[-1].image
+    fault = drive.go(2.0, lambda frames: with_clock(still, len(frames), share=0.15))
     assert fault is FaultKind.CAMERA_PAST
     assert drive.driven_m <= NOTICED_M
 
@@ -214,14 +226,16 @@ def test_plants_that_must_be_in_view_do_not_vanish(crop: str) -> None:
     """Mud, another colour, a lens cap with light behind it: whatever hides the crop is no end of a row."""
     drive, random = Drive(crop, FRONT), np.random.default_rng(1)
     assert drive.go(0.5) is None
-    mud = np.clip(random.normal((40, 60, 85), 3, drive.frames[-1].image.shape), 0, 255).astype(np.uint8)
+    height, width = drive.frames[-1].image.shape[:2]
+    blotches = np.kron(random.normal(0, 4, (height // 20, width // 20, 1)), np.ones((20, 20, 1)))
+    mud = np.clip(blotches + random.normal((40, 60, 85), 3, (height, width, 3)), 0, 255).astype(np.uint8)
     assert drive.go(0.2, lambda frames: np.roll(mud, len(frames), 0)) is None
     assert {each.fault for each in drive.said} == {FaultKind.CAMERA_BLIND}
     assert "of the plants that must be in view are" in drive.said[0].said
 
 
-def test_ground_without_anything_to_see_accuses_nobody() -> None:
-    """Noise alone: nothing moves, whatever the wheels say."""
+def test_noise_alone_shows_no_crop_and_accuses_nobody_of_more() -> None:
+    """Nothing moves, whatever the wheels say."""
     watch, random = PictureWatch(ROBOT.cameras.front.pinhole(), MAX_DELAY_S), np.random.default_rng(1)
     size = (ROBOT.cameras.front.height_px, ROBOT.cameras.front.width_px, 3)
     noisy = np.clip(random.normal((70, 95, 120), 3, size), 0, 255).astype(np.uint8)
@@ -229,4 +243,5 @@ def test_ground_without_anything_to_see_accuses_nobody() -> None:
     for number in range(200):
         track.add(number * FRAME_S, Pose(number * FOLLOWED_MPS * FRAME_S, 0.0, 0.0))
         image = np.roll(noisy, random.integers(0, size[1], 2), (0, 1))
-        assert watch.objection(Frame(FRONT, number, number * FRAME_S, image), track) is None
+        found = watch.objection(Frame(FRONT, number, number * FRAME_S, image), track)
+        assert found is not None and found.fault is FaultKind.CAMERA_BLIND
