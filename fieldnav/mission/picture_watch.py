@@ -31,6 +31,8 @@ twentieth of dull soil has 11, a camera's night mode 0, JPEG's rounding 2."""
 DETAIL, COARSE_SD = 0.8, 3.0
 """Grey levels, standard deviation of what a thumbnail shows beside its own blur, in the channel that has
 most. The barest soil has 5 drawn and 7 in photographs, flat soil under a sensor's noise 1.1, mud 0.5."""
+DETAIL_S = 0.2
+"""So often that is looked at, and in every frame while there is too little."""
 THUMBNAIL_ROWS = 180
 """About so many rows of a picture are looked at for its thumbnail: noise is averaged out as well."""
 LEFT_SHARE = 0.2
@@ -53,6 +55,7 @@ class PictureWatch:
         self._before: View | None = None
         self._sample = self._image = np.empty(0, np.uint8)
         self._changed_s = 0.0
+        self._detail, self._detailed_s = DETAIL, float("-inf")
         self._changed_at = Pose()
 
     def objection(self, frame: Frame, track: Track, heard: bool = True) -> Trouble | None:
@@ -123,9 +126,10 @@ class PictureWatch:
         """Crop is told from soil by its colour: a grey picture shows no crop, and that is no sign of its
         end."""
         name = f"{frame.camera.value} camera"
-        detail = _detail(frame.image)
-        if detail < DETAIL:
-            said = f"{name}: nothing can be told apart in it, detail {detail:.1f}, limit {DETAIL:.1f}"
+        if self._detail < DETAIL or frame.stamp_s - self._detailed_s >= DETAIL_S:
+            self._detail, self._detailed_s = _detail(frame.image), frame.stamp_s
+        if self._detail < DETAIL:
+            said = f"{name}: nothing can be told apart in it, detail {self._detail:.1f}, limit {DETAIL:.1f}"
             return Trouble(FaultKind.CAMERA_BLIND, said)
         blue, green, red = cv2.split(sample)
         colour = cv2.subtract(cv2.max(cv2.max(blue, green), red), cv2.min(cv2.min(blue, green), red))
@@ -170,10 +174,8 @@ class PictureWatch:
 
 
 def _same_share(one: NDArray[np.uint8], other: NDArray[np.uint8]) -> float:
-    """The share of pixels that two samples of pictures have in common; 0 for different sizes."""
-    if one.shape != other.shape:
-        return 0.0
-    return float((one == other).all(axis=2).mean())
+    """The share of values that two samples of pictures have in common; 0 for different sizes."""
+    return float((one == other).mean()) if one.shape == other.shape else 0.0
 
 
 def _detail(image: Image) -> float:

@@ -112,7 +112,7 @@ class FaultyCamera:
         self._broken: list[_Broken] = []
         self._given: Frame | None = None
         self._made_of: Frame | None = None
-        self._taken: deque[Frame] = deque()
+        self._taken: deque[tuple[float, Frame]] = deque()
         self._still: tuple[Image, ...] = ()
         self._next_s = 0.0
         self.good_s: float | None = None
@@ -122,7 +122,7 @@ class FaultyCamera:
     ) -> None:
         """From now on until a time: the fault; measure: seconds late, or frames a second."""
         if self._taken:
-            newest_s = self._taken[-1].stamp_s
+            newest_s = self._taken[-1][1].stamp_s
             earlier_s = newest_s - (TURN_S if fault is CameraFault.IN_TURN else 0.0)
             self._still = (self._at(newest_s).image, self._at(earlier_s).image)
         self._broken.append(_Broken(fault, now_s, until_s, measure))
@@ -133,9 +133,9 @@ class FaultyCamera:
     def take(self, now_s: float) -> None:
         """Look on, as a camera does whether it is asked or not: what it has seen it may give later."""
         plain = self._camera.latest(now_s)
-        if plain is not None and not (self._taken and plain is self._taken[-1]):
-            self._taken.append(plain)
-            while plain.stamp_s - self._taken[0].stamp_s > KEPT_S:
+        if plain is not None and not (self._taken and plain is self._taken[-1][1]):
+            self._taken.append((now_s, plain))
+            while now_s - self._taken[0][0] > KEPT_S:
                 self._taken.popleft()
 
     def latest(self, now_s: float) -> Frame | None:
@@ -145,7 +145,8 @@ class FaultyCamera:
         if CameraFault.UNPLUGGED in faults:
             raise DriverError(f"{self._name.value} camera cannot be read", FaultKind.CAMERA_UNPLUGGED)
         late_s = max((each.measure for each in broken if each.fault is CameraFault.LATE), default=0.0)
-        plain = self._camera.latest(now_s - late_s)
+        self.take(now_s)
+        plain = next((frame for came_s, frame in reversed(self._taken) if came_s <= now_s - late_s), None)
         if plain is None or plain is self._made_of:
             return self._given
         slow = [each.measure for each in broken if each.fault is CameraFault.SLOW]
@@ -153,7 +154,6 @@ class FaultyCamera:
             return self._given
         self._next_s = plain.stamp_s + (1 / min(slow) if slow else 0.0)
         self._made_of = plain
-        self.take(now_s)
         shown = self._at(plain.stamp_s - max((each.delay_s for each in broken), default=0.0))
         self._given = self._made(plain, shown.image, broken)
         if not faults & BLIND:
@@ -162,7 +162,9 @@ class FaultyCamera:
 
     def _at(self, stamp_s: float) -> Frame:
         """The newest frame taken by a time, the oldest kept where none is so old."""
-        return next((each for each in reversed(self._taken) if each.stamp_s <= stamp_s), self._taken[0])
+        return next(
+            (frame for _, frame in reversed(self._taken) if frame.stamp_s <= stamp_s), self._taken[0][1]
+        )
 
     def close(self) -> None:
         self._camera.close()
