@@ -1,5 +1,6 @@
 """Broken files read as fieldnav reads them: settings or a value, or one clear error; never else."""
 
+import gc
 import sys
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -81,6 +82,7 @@ def judge(original: Original, path: Path) -> tuple[str, bool, float]:
     modules, started_s = set(sys.modules), process_time()
     _ran.clear()
     accepted, wrong = False, ""
+    gc.disable()  # to look through all that a long test run has left takes a second, which is not the file's
     try:
         original.read(path)
         accepted = True
@@ -89,6 +91,7 @@ def judge(original: Original, path: Path) -> tuple[str, bool, float]:
     except Exception as error:  # whatever it is, it is what is looked for
         wrong = f"{type(error).__name__}: {' '.join(str(error).split())}"
     took_s = process_time() - started_s
+    gc.enable()
     if took_s > SLOWEST_S:
         wrong = wrong or f"took {took_s:.1f} s"
     imported = [name for name in set(sys.modules) - modules if not name.startswith(TEXT_CODECS)]

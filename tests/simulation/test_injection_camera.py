@@ -100,6 +100,7 @@ def test_an_unplugged_camera_raises_and_gives_frames_again_once_mended() -> None
 
 def test_late_frames_are_older_by_so_much() -> None:
     camera, _ = broken(CameraFault.LATE, 0.8)
+    looks(camera, 1.0, 1.0)
     times_s = [2.0 + tick * 0.02 for tick in range(20)]
     ages = [now_s - frame.stamp_s for now_s in times_s if (frame := camera.latest(now_s))]
     assert min(ages) >= 0.8

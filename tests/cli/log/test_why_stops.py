@@ -69,7 +69,7 @@ CAUSES = {
     "camera white": "front camera: brightness 255 of 255",
     "camera of the wrong size": "front camera gives 320x180, its file says 640x360",
     "camera upside down": "front camera: the ground moves against what the wheels say",
-    "frames late": "newest frame is 0.9",
+    "frames late": "newest frame is 0.8",
     "module late": f"{FRONT_LEFT} last reported",
     "module silent": f"{FRONT_LEFT} (node 3) has been silent for",
     "module rebooted": f"{FRONT_LEFT} (node 3) has left operation or rebooted",
