@@ -148,10 +148,18 @@ class PictureMotion:
         gains = np.append(gains, unrelated)
         weights = np.append(came, self._weights[-1]) * np.exp(gains - gains.max())
         self._weights = weights / weights.sum()
+        self._doubt_mirrored(*np.abs((after_m - before_m)[:, 0]))
         self._raise(IMPOSSIBLE)
         self._renew()
         if unrelated - believed > SURPRISE:
             self._spread(AFTER_JUMP)
+
+    def _doubt_mirrored(self, along_m: float, across_m: float) -> None:
+        """Straight ahead a mirrored picture moves like any other: only what goes sideways speaks for it."""
+        if across_m <= along_m:
+            mirrored = _N + list(Lie).index(Lie.MIRRORED)
+            self._weights[mirrored] = min(self._weights[mirrored], UNLIKELY)
+            self._weights /= self._weights.sum()
 
     def _spread(self, share: float) -> None:
         """Pictures may no longer follow from those before: any delay may have come about, and any of the
