@@ -61,6 +61,8 @@ class Lie(Enum):
 SIGNS: Floats = np.array([[0.0, -1.0, 1.0], [0.0, -1.0, -1.0]])
 """Shape (2, 3): times what the wheels say along and across the view, for the first three lies."""
 _N, _ALL = len(DELAYS_S), len(DELAYS_S) + len(SIGNS.T)
+_PLACE = {lie: _N + number for number, lie in enumerate(Lie)}
+"""Of each lie among all hypotheses."""
 _SELF = np.arange(_ALL)
 _FROM = np.stack([np.where(_SELF < _N, (_SELF - 1).clip(0), _SELF), _SELF,
                   np.where(_SELF < _N, (_SELF + 1).clip(max=_N - 1), _SELF)])  # fmt: skip
@@ -105,7 +107,7 @@ class PictureMotion:
         return float(self._weights[:_N][limit_s < DELAYS_S].sum())
 
     def probability(self, lie: Lie) -> float:
-        return float(self._weights[_N + list(Lie).index(lie)])
+        return float(self._weights[_PLACE[lie]])
 
     def interrupted(self) -> None:
         """Pictures were left out: the ground is carried along from the next one, all else holds."""
@@ -157,9 +159,8 @@ class PictureMotion:
     def _doubt_mirrored(self, along_m: float, across_m: float) -> None:
         """Straight ahead a mirrored picture moves like any other: only what goes sideways speaks for it."""
         if across_m <= along_m:
-            mirrored = _N + list(Lie).index(Lie.MIRRORED)
-            self._weights[mirrored] = min(self._weights[mirrored], UNLIKELY)
-            self._weights /= self._weights.sum()
+            place = _PLACE[Lie.MIRRORED]
+            self._weights[place] = min(self._weights[place], UNLIKELY)
 
     def _spread(self, share: float) -> None:
         """Pictures may no longer follow from those before: any delay may have come about, and any of the

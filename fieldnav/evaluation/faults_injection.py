@@ -41,6 +41,11 @@ class Injection:
         return f"{name} that passes" if self.passing else name
 
     @property
+    def rightly(self) -> frozenset[FaultKind]:
+        """What it may be called in the end."""
+        return self.instead | {self.fault}
+
+    @property
     def reaction(self) -> Reaction:
         return FAULTS[self.fault].reaction
 

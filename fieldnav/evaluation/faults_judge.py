@@ -73,7 +73,7 @@ def _ends(rig: Rig, injection: Injection, wanted: Expected, witness: Witness) ->
 
 
 def _silent(injection: Injection, witness: Witness) -> str:
-    if witness.noticed(injection.instead | {injection.fault}) is not None:
+    if witness.noticed(injection.rightly) is not None:
         return ""
     last = next((line.reason for line in reversed(witness.lines()) if line.reason), "nothing")
     return f"the journal does not name it, but says: {last}"

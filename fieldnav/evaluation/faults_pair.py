@@ -112,7 +112,7 @@ class Pair:
 
     def _until_noticed(self) -> Iterator[None]:
         """The file is read only when it has grown, which every line makes it do."""
-        rig, kinds = self._rig, self._injection.instead | {self._injection.fault}
+        rig, kinds = self._rig, self._injection.rightly
         until_s, sequence = rig.now_s + UNNOTICED_S, -1
         while rig.now_s < until_s and rig.leaf != FINISHED and not self._ended():
             if rig.paper.sequence != sequence:
@@ -132,7 +132,7 @@ class Pair:
 
     def _result(self) -> PairResult:
         witness, injection = self.witness, self._injection
-        line = witness.noticed(injection.also | injection.instead | {injection.fault})
+        line = witness.noticed(injection.also | injection.rightly)
         since_s = line.stamp_s if line else witness.struck_s
         timed = line is not None or self._wanted is Expected.MODULES_STOP
         return PairResult(

@@ -6,12 +6,12 @@ from numpy.typing import NDArray
 
 from fieldnav.errors import DriverError
 from fieldnav.faults import FaultKind, Reaction, Trouble
-from fieldnav.messages import Frame, Image
+from fieldnav.messages import Frame
 from fieldnav.mission.motion_monitor import MotionMonitor, View
 from fieldnav.mission.repeated_pictures import RepeatedPictures
 from fieldnav.odometry import Pose, Track
 from fieldnav.perception.ground_view import GroundView
-from fieldnav.perception.pose.picture_quality import BLACK, THUMBNAIL_PX, WHITE
+from fieldnav.perception.pose.picture_quality import BLACK, WHITE, detail, same, same_share
 from fieldnav.perception.sidestep.wheel_motion import travelled
 from fieldnav.pinhole import Pinhole
 
@@ -28,13 +28,10 @@ move."""
 COLOUR_LEVELS, COLOURED_SHARE = 6, 0.05
 """Grey levels between a pixel's channels, and the share of pixels that have more: the most colourful
 twentieth of dull soil has 11, a camera's night mode 0, JPEG's rounding 2."""
-DETAIL, COARSE_SD = 0.8, 3.0
-"""Grey levels, standard deviation of what a thumbnail shows beside its own blur, in the channel that has
-most. The barest soil has 5 drawn and 7 in photographs, flat soil under a sensor's noise 1.1, mud 0.5."""
+DETAIL = 0.8
+"""Grey levels; the barest soil has 5 drawn, 7 in photographs, flat soil under noise alone 1.1, mud 0.5."""
 DETAIL_S = 0.2
 """So often that is looked at, and in every frame while there is too little."""
-THUMBNAIL_ROWS = 180
-"""About so many rows of a picture are looked at for its thumbnail: noise is averaged out as well."""
 LEFT_SHARE = 0.2
 """Of the plants that must be in view; wind and shaking leave more than half."""
 REMEMBERED_S = 4.0
@@ -102,14 +99,14 @@ class PictureWatch:
         return None
 
     def _frozen(self, frame: Frame, sample: NDArray[np.uint8], pose: Pose) -> Trouble | None:
-        still = _same_share(sample, self._sample)
+        still = same_share(sample, self._sample)
         if still < STILL_SHARE:
             self._sample, self._image = sample, frame.image
             self._changed_s, self._changed_at = frame.stamp_s, pose
             return None
         driven_m = self._changed_at.distance_m(pose)
         same_s = frame.stamp_s - self._changed_s
-        if driven_m <= FROZEN_M and not (same_s > FROZEN_S and np.array_equal(frame.image, self._image)):
+        if driven_m <= FROZEN_M and not (same_s > FROZEN_S and same(frame.image, self._image)):
             return None
         but = f", but for {1 - still:.0%} of it," if still < 1 else ""
         said = f"{frame.camera.value} camera: the same picture{but} for {same_s:.2f} s and {driven_m:.2f} m"
@@ -127,7 +124,7 @@ class PictureWatch:
         end."""
         name = f"{frame.camera.value} camera"
         if self._detail < DETAIL or frame.stamp_s - self._detailed_s >= DETAIL_S:
-            self._detail, self._detailed_s = _detail(frame.image), frame.stamp_s
+            self._detail, self._detailed_s = detail(frame.image), frame.stamp_s
         if self._detail < DETAIL:
             said = f"{name}: nothing can be told apart in it, detail {self._detail:.1f}, limit {DETAIL:.1f}"
             return Trouble(FaultKind.CAMERA_BLIND, said)
@@ -171,15 +168,3 @@ class PictureWatch:
             f"limit {LEFT_SHARE:.0%}"
         )
         return Trouble(FaultKind.CAMERA_BLIND, said)
-
-
-def _same_share(one: NDArray[np.uint8], other: NDArray[np.uint8]) -> float:
-    """The share of values that two samples of pictures have in common; 0 for different sizes."""
-    return float((one == other).mean()) if one.shape == other.shape else 0.0
-
-
-def _detail(image: Image) -> float:
-    """How much can be told apart in a picture, in grey levels; uneven light and noise are left out."""
-    rows = image[:: max(1, len(image) // THUMBNAIL_ROWS)]
-    small = cv2.resize(rows, THUMBNAIL_PX, interpolation=cv2.INTER_AREA).astype(np.float32)
-    return float((small - cv2.GaussianBlur(small, (0, 0), COARSE_SD)).std(axis=(0, 1)).max())

@@ -4,11 +4,18 @@ from dataclasses import dataclass
 
 import cv2
 import numpy as np
+from numpy.typing import NDArray
 
 from fieldnav.messages import Image
 
 THUMBNAIL_PX = (64, 36)
 """Width and height at which pictures are compared: sensor noise is gone, every plant still there."""
+
+COARSE_SD = 3.0
+"""Thumbnail's pixels: what varies more slowly is light."""
+
+DETAIL_ROWS = 180
+"""About so many rows of a picture are looked at for its detail: noise is averaged out as well."""
 
 BLACK, WHITE = 10.0, 245.0
 """Grey levels of mean brightness; a field by night is darker, a sensor in the sun brighter."""
@@ -42,3 +49,17 @@ def difference(one: Image, other: Image) -> float:
 def same(one: Image, other: Image) -> bool:
     """Whether two pictures are one: a sensor's noise never comes twice."""
     return one.shape == other.shape and bool(np.array_equal(one, other))
+
+
+def same_share(one: NDArray[np.uint8], other: NDArray[np.uint8]) -> float:
+    """The share of values that two samples of pictures have in common; 0 for different sizes."""
+    return float((one == other).mean()) if one.shape == other.shape else 0.0
+
+
+def detail(image: Image) -> float:
+    """How much can be told apart in a picture: standard deviation in grey levels, uneven light and noise left
+    out, in the channel that has most.
+    """
+    rows = image[:: max(1, len(image) // DETAIL_ROWS)]
+    small = cv2.resize(rows, THUMBNAIL_PX, interpolation=cv2.INTER_AREA).astype(np.float32)
+    return float((small - cv2.GaussianBlur(small, (0, 0), COARSE_SD)).std(axis=(0, 1)).max())
