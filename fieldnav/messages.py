@@ -74,6 +74,8 @@ class Wheel(Enum):
     FRONT_LEFT = "front_left"
     REAR_LEFT = "rear_left"
 
+    __hash__ = object.__hash__  # Enum hashes a member's name in Python, at every look into a dict
+
 
 @dataclass(frozen=True, slots=True)
 class Frame:

@@ -5,6 +5,7 @@ camera looks (the robot's forward for the front camera, backward for the rear on
 """
 
 from dataclasses import dataclass
+from functools import lru_cache
 from math import cos, sin
 
 import numpy as np
@@ -64,9 +65,7 @@ class Pinhole:
     @property
     def view_m(self) -> tuple[float, float]:
         """Distance ahead of the robot's centre at which the image's lower and upper edge see the ground."""
-        edges = np.array([[self.centre_x_px, self.height_px - 1.0], [self.centre_x_px, 0.0]])
-        near, far = self.to_ground(edges)[:, 0]
-        return float(near), float(far)
+        return _view_m(self)
 
     @property
     def centre_x_px(self) -> float:
@@ -75,3 +74,10 @@ class Pinhole:
     @property
     def centre_y_px(self) -> float:
         return (self.height_px - 1) / 2
+
+
+@lru_cache(maxsize=64)
+def _view_m(camera: Pinhole) -> tuple[float, float]:
+    edges = np.array([[camera.centre_x_px, camera.height_px - 1.0], [camera.centre_x_px, 0.0]])
+    near, far = camera.to_ground(edges)[:, 0]
+    return float(near), float(far)

@@ -90,8 +90,9 @@ def judge(original: Original, path: Path) -> tuple[str, bool, float]:
         wrong = unclear(error, original, path)
     except Exception as error:  # whatever it is, it is what is looked for
         wrong = f"{type(error).__name__}: {' '.join(str(error).split())}"
-    took_s = process_time() - started_s
-    gc.enable()
+    finally:
+        took_s = process_time() - started_s
+        gc.enable()
     if took_s > SLOWEST_S:
         wrong = wrong or f"took {took_s:.1f} s"
     imported = [name for name in set(sys.modules) - modules if not name.startswith(TEXT_CODECS)]

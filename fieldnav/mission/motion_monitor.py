@@ -218,8 +218,8 @@ class SpeedChange:
             self._probe_until_s = min(self._probe_until_s, now_s)
 
     def _probe(self, share: float, seconds: float) -> None:
-        """Drive slower for a moment, unless that has just been done."""
-        if self._now_s > self._probe_until_s + PROBE_S:
+        """Drive slower for a moment, unless the robot has just been as slow."""
+        if share < self._probe_share or self._now_s > self._probe_until_s + PROBE_S:
             self._probe_share, self._probe_until_s, self._steady_m = share, self._now_s + seconds, 0.0
 
 

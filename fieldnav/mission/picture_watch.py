@@ -130,7 +130,7 @@ class PictureWatch:
             return Trouble(FaultKind.CAMERA_BLIND, said)
         blue, green, red = cv2.split(sample)
         colour = cv2.subtract(cv2.max(cv2.max(blue, green), red), cv2.min(cv2.min(blue, green), red))
-        coloured = float((np.asarray(colour) > COLOUR_LEVELS).mean())
+        coloured = np.count_nonzero(np.asarray(colour) > COLOUR_LEVELS) / colour.size
         if coloured >= COLOURED_SHARE:
             return None
         said = f"{name}: {coloured:.0%} of the picture has a colour, limit {COLOURED_SHARE:.0%}"

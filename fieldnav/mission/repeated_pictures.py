@@ -1,7 +1,6 @@
 """Pictures that were shown before: a sensor's noise never comes twice, so these are not what the camera sees
 now."""
 
-from collections import deque
 from dataclasses import dataclass
 from zlib import crc32
 
@@ -20,16 +19,16 @@ MIN_REPEATED = 2
 
 @dataclass(frozen=True, slots=True)
 class _Shown:
-    check: int
     stamp_s: float
     pose: Pose
 
 
 class RepeatedPictures:
-    """Remembers a checksum of each picture of one camera."""
+    """Remembers a checksum of each picture of one camera, and when it was shown first."""
 
     def __init__(self) -> None:
-        self._shown: deque[_Shown] = deque()
+        self._shown: dict[int, _Shown] = {}
+        self._last: int | None = None
         self._repeated = 0
 
     def age_s(self, sample: NDArray[np.uint8], stamp_s: float, pose: Pose) -> float | None:
@@ -38,20 +37,12 @@ class RepeatedPictures:
         sample: of the picture's pixels, enough that noise makes it one of a kind. The picture right before
         does not count: a camera that gives it again is frozen.
         """
-        now = _Shown(crc32(sample.tobytes()), stamp_s, pose)
-        last = self._shown[-1] if self._shown else None
-        if last is not None and last.check == now.check:
+        check = crc32(sample.tobytes())
+        if check == self._last:
             return None
-        found = next(
-            (
-                each
-                for each in self._shown
-                if each.check == now.check and each.pose.distance_m(pose) >= MOVED_M
-            ),
-            None,
-        )
-        self._repeated = self._repeated + 1 if found else 0
-        self._shown.append(now)
-        while stamp_s - self._shown[0].stamp_s > REMEMBERED_S:
-            self._shown.popleft()
-        return stamp_s - found.stamp_s if found and self._repeated >= MIN_REPEATED else None
+        self._last = check
+        while self._shown and stamp_s - next(iter(self._shown.values())).stamp_s > REMEMBERED_S:
+            del self._shown[next(iter(self._shown))]
+        first = self._shown.setdefault(check, _Shown(stamp_s, pose))
+        self._repeated = self._repeated + 1 if first.pose.distance_m(pose) >= MOVED_M else 0
+        return stamp_s - first.stamp_s if self._repeated >= MIN_REPEATED else None

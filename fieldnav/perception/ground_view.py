@@ -136,8 +136,8 @@ class GroundView:
             max(-down, 0) : height + min(-down, 0), max(-right, 0) : width + min(-right, 0)
         ]
         edge = ceil(EDGE_M / self.cell_m)  # shaking brings plants over the map's edge
-        expected = float((there[edge:-edge, edge:-edge] > GREEN).mean())
-        return float((here > GREEN).mean()) / expected if expected >= MIN_COVER else None
+        expected = _cover(there[edge:-edge, edge:-edge])
+        return _cover(here) / expected if expected >= MIN_COVER else None
 
     def _found(self, before: FineMap, after: FineMap, reach: int) -> SeenMotion:
         height, width = before.cells.shape
@@ -147,6 +147,11 @@ class GroundView:
         down = y + _summit(alike[:, x], y) - reach
         right = x + _summit(alike[y], x) - reach
         return SeenMotion(float(down * self.cell_m), float(right * self.cell_m), float(likeness))
+
+
+def _cover(vegetation: NDArray[np.uint8]) -> float:
+    """The share that is covered by plants."""
+    return np.count_nonzero(vegetation > GREEN) / vegetation.size
 
 
 def _fine(values: NDArray[np.uint8]) -> FineMap:

@@ -17,14 +17,12 @@ def body_motion(wheels: Mapping[Wheel, WheelSetpoint], geometry: Geometry, slip:
 
     Weighted least squares of two equations a wheel: along it the rim speed less the slip, across it nothing.
     """
-    rows, wanted = [], []
+    rows = []
     for wheel, state in wheels.items():
         x, y = geometry.position_m(wheel)
         c, s = cos(state.steering_rad), sin(state.steering_rad)
-        rows.append([c, s, x * s - y * c])
-        wanted.append(state.speed_mps * (1 - slip))
-        rows.append([-s * SCRUB, c * SCRUB, (x * c + y * s) * SCRUB])
-        wanted.append(0.0)
+        rows.append((c, s, x * s - y * c, state.speed_mps * (1 - slip)))
+        rows.append((-s * SCRUB, c * SCRUB, (x * c + y * s) * SCRUB, 0.0))
     equations = np.array(rows)
-    vx, vy, yaw = np.linalg.solve(equations.T @ equations, equations.T @ np.array(wanted))
-    return Twist(float(vx), float(vy), float(yaw))
+    normal = equations[:, :3].T @ equations
+    return Twist(*np.linalg.solve(normal[:, :3], normal[:, 3]).tolist())

@@ -66,7 +66,7 @@ class FieldPlan:
 
     def plants_near(self, xy: ArrayLike, radius_m: float) -> NDArray[np.int64]:
         """Indices of the plants whose stems stand within `radius_m` of a world point (2,), in order."""
-        return np.array(sorted(self.tree.query_ball_point(np.asarray(xy), radius_m)), dtype=np.int64)
+        return np.array(self.tree.query_ball_point(xy, radius_m, return_sorted=True), dtype=np.int64)
 
     def in_lane(self, lane: int, xy: ArrayLike) -> tuple[Floats, Floats, Floats]:
         """(s, offset, heading) of world points (..., 2) against the middle of a lane's rows.

@@ -1,6 +1,7 @@
 """The lines that the drill drew: where each row of each lane runs, and where it starts and ends."""
 
 from dataclasses import dataclass
+from functools import cached_property
 from math import sqrt
 
 import numpy as np
@@ -17,7 +18,7 @@ MARGIN_M = 5.0  # of line beyond both row ends, for a camera that looks there
 SHARED_WANDER = 0.8  # share of the wander's variance that all rows of a pass of the drill have in common
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class RowLines:
     """Row lines in field coordinates (see centreline).
 
@@ -32,13 +33,18 @@ class RowLines:
     start_m: Floats
     end_m: Floats
 
+    @cached_property
+    def middle_n_m(self) -> Floats:
+        """Where the middle of each lane's rows really runs, shape (lanes, steps)."""
+        return np.asarray(self.row_n_m.mean(axis=1))
+
     def row_n(self, lane: int, row: int, s: ArrayLike) -> Floats:
         """Distance n of a row from the field's centre line, at distances `s`."""
         return np.asarray(np.interp(np.asarray(s, dtype=float), self.s_m, self.row_n_m[lane, row]))
 
     def lane_n(self, lane: int, s: ArrayLike) -> Floats:
         """The same for the middle of a lane's rows: the line that a perfect robot drives."""
-        return np.asarray(np.interp(np.asarray(s, dtype=float), self.s_m, self.row_n_m[lane].mean(axis=0)))
+        return np.asarray(np.interp(np.asarray(s, dtype=float), self.s_m, self.middle_n_m[lane]))
 
     def mirrored(self) -> "RowLines":
         """The same lines with left and right exchanged; rows keep their order from right to left."""
