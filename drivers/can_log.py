@@ -127,19 +127,16 @@ class LoggedBus(can.BusABC):
 
     def _keep(self, msg: can.Message, stamp_s: float) -> None:
         """Note a frame; if that fails, give the log up for good."""
+        if self._log is None:
+            return
         try:
-            self._note(msg, stamp_s)
+            self._log.write(msg, stamp_s)
+            if self._flushed_s is None or not 0 <= stamp_s - self._flushed_s < FLUSH_S:
+                self._log.file.flush()
+                self._flushed_s = stamp_s
         except OSError as error:
             self._give_up(error)
             self._close_log()
-
-    def _note(self, msg: can.Message, stamp_s: float) -> None:
-        if self._log is None:
-            return
-        self._log.write(msg, stamp_s)
-        if self._flushed_s is None or not 0 <= stamp_s - self._flushed_s < FLUSH_S:
-            self._log.file.flush()
-            self._flushed_s = stamp_s
 
     def _close_log(self) -> None:
         """Close the file; it counts as closed also when its last lines find no room."""

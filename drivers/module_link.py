@@ -146,15 +146,15 @@ class ModuleLink:
     @property
     def missing(self) -> Missing | None:
         """The first thing that is still to be heard; None once the module may move."""
-        told = {
-            Missing.STATE: self.state is NodeState.OPERATIONAL,
-            Missing.CONSTANTS: self.constants is not None,
-            Missing.FAULTS: self.faults.value is not None or Missing.FAULTS not in self._asked,
-            Missing.MODE: self.mode.value is not None or Missing.MODE not in self._asked,
-            Missing.HEALTH: self._flags is not None,
-            Missing.MOTION: self._moved_s is not None,
-        }
-        return next((each for each, is_told in told.items() if not is_told), None)
+        told = (
+            (Missing.STATE, self.state is NodeState.OPERATIONAL),
+            (Missing.CONSTANTS, self.constants is not None),
+            (Missing.FAULTS, self.faults.value is not None or Missing.FAULTS not in self._asked),
+            (Missing.MODE, self.mode.value is not None or Missing.MODE not in self._asked),
+            (Missing.HEALTH, self._flags is not None),
+            (Missing.MOTION, self._moved_s is not None),
+        )
+        return next((each for each, is_told in told if not is_told), None)
 
     @property
     def stops(self) -> Trouble | None:

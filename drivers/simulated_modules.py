@@ -78,16 +78,17 @@ class SimulatedModules:
         self.battery.advance(TICK_S, sum(module.motion.battery_current_a for module in self.modules.values()))
         while self._waiting and self._waiting[0][0] <= now_s + TOLERANCE_S:
             self._deliver(now_s, self._waiting.popleft()[1])
+        battery_v = self.battery.voltage_v
         for module, voice in self._voices:
-            for kind, values in voice.speak(now_ms, self.battery.voltage_v):
+            for kind, values in voice.speak(now_ms, battery_v):
                 self._say(now_s, module, kind, values)
         for kind, values in self.battery.speak(now_ms):
             self._bus.send(self._layout.frame(now_s, NO_NODE, kind, values))
 
     def _deliver(self, now_s: float, telegram: Telegram) -> None:
         node = int(telegram.values["Node"]) if telegram.kind is Kind.NMT else telegram.node
+        to_all = telegram.kind is Kind.NMT and node == NMT_TO_ALL
         for module in self.modules.values():
-            to_all = telegram.kind is Kind.NMT and node == NMT_TO_ALL
             if to_all or node == module.module.node_id:
                 answer = module.obey(now_s, telegram.kind, telegram.values)
                 if answer is not None and Kind.SDO_REPLY not in module.muted:

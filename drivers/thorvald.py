@@ -108,8 +108,8 @@ class ThorvaldWheels:
                 self._beat(now_s)
             self._excuse_own_stop(now_s)
             self._check_modules(now_s)
-        reports = {wheel: link.report for wheel, link in self._links.items()}
-        said = {wheel: report for wheel, report in reports.items() if report is not None}
+        links = self._links.items()
+        said = {wheel: report for wheel, link in links if (report := link.report) is not None}
         return WheelReport(said, self._charge_percent)
 
     def command(self, now_s: float, setpoints: Mapping[Wheel, WheelSetpoint]) -> None:
