@@ -45,10 +45,12 @@ def open_bus(settings: Bus) -> can.BusABC:
 
 
 def _reach_server(settings: Bus) -> None:
-    """Raise OSError where a socketcand is not there, which python-can would go on trying for 10 s."""
+    """Raise OSError where no socketcand answers, which python-can would wait for for ever."""
     host, port = settings.options.get("host"), settings.options.get("port")
     if settings.interface == SOCKETCAND and isinstance(host, str) and isinstance(port, int):
-        socket.create_connection((host, port), SERVER_S).close()
+        with socket.create_connection((host, port), SERVER_S) as server:
+            if not server.recv(1):
+                raise ConnectionError("the server closed the connection")
 
 
 def open_virtual_pair() -> tuple[can.BusABC, can.BusABC]:

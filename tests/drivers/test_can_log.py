@@ -1,7 +1,9 @@
 import os
+import socket
 import subprocess
 import sys
 from importlib.resources import files
+from threading import Thread
 
 import can
 import pytest
@@ -201,3 +203,18 @@ def test_a_bus_that_is_not_there_is_named():
         open_bus(Bus(interface="socketcan", channel="nowhere0"))
     with pytest.raises(DriverError, match="interface pigeon"):
         open_bus(Bus(interface="pigeon", channel="can0"))
+
+
+def close_the_first(server):
+    server.accept()[0].close()
+
+
+@pytest.mark.parametrize(("closes", "said"), [(False, "timed out"), (True, "closed the connection")])
+def test_a_server_that_does_not_greet_is_not_waited_for(closes, said, monkeypatch):
+    monkeypatch.setattr("drivers.can_log.SERVER_S", 0.2)
+    with socket.create_server(("127.0.0.1", 0)) as server:
+        there = {"host": "127.0.0.1", "port": server.getsockname()[1]}
+        if closes:
+            Thread(target=close_the_first, args=(server,), daemon=True).start()
+        with pytest.raises(DriverError, match=f"interface socketcand, channel can0: .*{said}"):
+            open_bus(Bus(interface="socketcand", channel="can0", options=there))
