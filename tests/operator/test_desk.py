@@ -79,10 +79,10 @@ def test_a_line_that_comes_in_pieces_is_put_together(desk: Desk, call: Call) -> 
 
 
 def test_a_quiet_desk_costs_microseconds(desk: Desk) -> None:
-    started = time.perf_counter()
+    started = time.process_time()
     for tick in range(QUIET_ROUNDS):
         desk.poll(tick * 0.02)
-    assert (time.perf_counter() - started) / QUIET_ROUNDS < QUIET_LIMIT_S
+    assert (time.process_time() - started) / QUIET_ROUNDS < QUIET_LIMIT_S
 
 
 def test_silent_callers_are_sent_away_and_make_room(desk: Desk, call: Call) -> None:
