@@ -1,5 +1,6 @@
 # make run    set up and watch the robot drive the demonstration field
-# make test   everything that CI checks
+# make test   linters, types, contracts and the tests but for the long ones
+# make test-long      longer forms of what `make test` covers: whole missions, more crops, more kinds of recordings
 # make test-lowest    the tests with the lowest versions that pyproject.toml allows, in an environment of their own
 # make test-backends  SocketCAN and RTSP, with what Debian's packages offer; says what it lacks, installs nothing
 # make test-package   builds sdist and wheel; the wheel, alone in an environment of its own, drives a lane
@@ -13,12 +14,13 @@ PIP := $(BIN)/python -m pip --quiet --disable-pip-version-check
 
 LOWEST := .venv-lowest/bin
 PACKAGE := .venv-package/bin
+SHORT := -n 2 --dist loadfile -m "not long"
 # The share of the tests that CI runs with the lowest versions: what leans on other packages most, in a minute.
 LOWEST_SHARE := tests/settings/test_wrong_input.py tests/drivers/test_thorvald.py tests/drivers/test_can_log.py \
 	tests/recording/test_schemas.py tests/recording/test_foxglove.py tests/states/test_diagram.py \
 	tests/cli/test_detect.py tests/cli/test_simulate.py tests/replay/foreign/test_refused.py
 
-.PHONY: run test test-lowest test-lowest-share test-backends test-package clean
+.PHONY: run test test-long test-lowest test-lowest-share test-backends test-package clean
 .DELETE_ON_ERROR:
 
 run: .venv/installed
@@ -29,13 +31,16 @@ test: .venv/installed-dev
 	$(BIN)/ruff format --check .
 	$(BIN)/mypy
 	$(BIN)/lint-imports
-	$(BIN)/pytest -n 2 --dist loadfile
+	$(BIN)/pytest $(SHORT)
+
+test-long: .venv/installed-dev
+	$(BIN)/pytest -n 2 --dist loadfile -m long
 
 test-lowest: .venv-lowest/installed
-	$(LOWEST)/pytest -n 2 --dist loadfile
+	$(LOWEST)/pytest $(SHORT)
 
 test-lowest-share: .venv-lowest/installed
-	$(LOWEST)/pytest -n 2 --dist loadfile $(LOWEST_SHARE)
+	$(LOWEST)/pytest $(SHORT) $(LOWEST_SHARE)
 
 test-backends: .venv/installed-dev
 	$(BIN)/pytest -v -rs tests/backends/test_rtsp.py

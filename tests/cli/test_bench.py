@@ -121,6 +121,7 @@ def test_a_figure_measured_by_numpy_is_json_too() -> None:
     assert [row["met"] for row in rows] == [False, True]
 
 
+@pytest.mark.long  # its parts: tests/evaluation; the command on one case: tests/evaluation/test_fuzz.py
 def test_a_benchmark_succeeds_whatever_its_figures_are_and_says_what_it_left_out(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
@@ -246,6 +247,7 @@ def test_a_goal_with_a_deviation_is_shown_with_it(capsys: pytest.CaptureFixture[
     assert document("bench", "abc", Report((figure,)))["rows"][0]["goal_std"] == 0.9
 
 
+@pytest.mark.long  # its parts: tests/evaluation/test_navigation.py
 def test_a_lane_is_driven_both_ways_judged_and_drawn(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:

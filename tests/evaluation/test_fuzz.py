@@ -118,22 +118,23 @@ def test_a_driver_that_moves_though_it_should_stand_is_caught_with_its_frame() -
     prepare = partial(standing_driver, make_wheels=Credulous)
     bouts = [Bout(Part.DRIVER, index, FRAMES, SEED) for index in range(30)]
 
-    moved = [fought.motion for fought in (fight(bout, prepare) for bout in bouts) if fought.motion]
+    fought = (fight(bout, prepare) for bout in bouts)
+    moved = next((each.motion for each in fought if each.motion), None)
 
     assert moved
-    assert "the host sent 201#" in moved[0].reason
-    assert "frames " in moved[0].reason
-    assert moved[0].again.startswith("fieldnav bench fuzz --seed 7 --again driver:")
+    assert "the host sent 201#" in moved.reason
+    assert "frames " in moved.reason
+    assert moved.again.startswith("fieldnav bench fuzz --seed 7 --again driver:")
 
 
 @pytest.mark.parametrize("prepare", [standing_driver, standing_mission])
 def test_a_driver_that_breaks_is_caught_whatever_it_raises(prepare: object) -> None:
     bouts = [Bout(Part.DRIVER, index, FRAMES, SEED) for index in range(6)]
 
-    fought = [fight(bout, partial(prepare, make_wheels=Brittle)) for bout in bouts]
+    fought = (fight(bout, partial(prepare, make_wheels=Brittle)) for bout in bouts)
 
-    crashes = [each.crash for each in fought if each.crash]
-    assert crashes and "KeyError: 'no such flag'" in crashes[0].reason
+    crash = next((each.crash for each in fought if each.crash), None)
+    assert crash and "KeyError: 'no such flag'" in crash.reason
 
 
 def test_a_mission_that_drives_too_fast_is_caught() -> None:

@@ -28,6 +28,8 @@ from fieldnav.settings.loading import load_robot, revised
 
 SEEDS = (203, 236)
 """Both crops, each to another side; killed early and late."""
+ONE_LANE_KILLS = 2
+"""Of a mission of a single lane, which takes twelve seconds of the robot's time."""
 LONG_S = 10.0
 """Within that any process is dead that was killed."""
 KILLS, MEAN_S = 5, 5.0
@@ -45,6 +47,18 @@ def short(seed: int) -> SoakRun:
     return replace(made, field=field, kills=KILLS, mean_s=MEAN_S)
 
 
+def test_a_lane_whose_process_is_killed_twice_is_driven_to_its_end() -> None:
+    made = short(SEEDS[0])
+    field = revised(made.field, {"lanes": 1, "length_m": 4.0})
+
+    done = soak(replace(made, field=field, kills=ONE_LANE_KILLS))
+
+    assert done.faults == [], f"{done.run.title}; killed in {dict(done.kills)}"
+    assert done.kills.total() == ONE_LANE_KILLS, f"{done.run.title}: its end came before its kills"
+    assert 0.0 < done.standstill_s < 0.6  # the watchdog's 0.2 s, and the ramp from 0.5 m/s
+
+
+@pytest.mark.long  # one lane in the test before; the crossing in tests/two_processes
 @pytest.mark.parametrize("seed", SEEDS)
 def test_a_mission_killed_at_any_moment_is_resumed_to_its_end_with_every_lane_driven_once(seed: int) -> None:
     done = soak(short(seed))

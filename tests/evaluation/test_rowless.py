@@ -21,7 +21,7 @@ def drawn(kind: str, seed: int = 1) -> Image:
 
 
 def green_share(kind: str) -> float:
-    return float(np.mean([(excess_green(drawn(kind, seed)) > GREEN_LEVEL).mean() for seed in (1, 2, 3)]))
+    return float(np.mean([(excess_green(drawn(kind, seed)) > GREEN_LEVEL).mean() for seed in (1, 2)]))
 
 
 @pytest.mark.parametrize("kind", KINDS)
@@ -42,7 +42,7 @@ def test_no_crop_stands_on_bare_soil_and_weeds_grow_as_densely_as_they_are_calle
 
 
 def test_tyre_tracks_are_two_dark_bands_beside_the_middle() -> None:
-    brightness = np.mean([drawn("tyre tracks", seed)[-40:].mean(axis=(0, 2)) for seed in range(6)], axis=0)
+    brightness = np.mean([drawn("tyre tracks", seed)[-40:].mean(axis=(0, 2)) for seed in range(3)], axis=0)
 
     left, middle, right = (brightness[part].mean() for part in np.split(np.arange(1260), 3))
     assert max(left, right) < middle

@@ -99,8 +99,9 @@ def test_a_picture_of_another_size_than_the_truth_is_of_is_refused(tmp_path: Pat
 
 
 def test_photographs_without_a_sequence_taken_sideways_are_left_out_and_the_reason_said(
-    tmp_path: Path,
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
+    monkeypatch.setattr("fieldnav.evaluation.sideways.FIELDS", ())  # what is rendered is of other tests
     folder = tmp_path / "near_nadir_jw" / "seq"
     write_sequence(folder / "any", mode="forward", count=2)
 

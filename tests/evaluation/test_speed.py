@@ -96,7 +96,7 @@ def test_a_sidestep_frame_with_features_costs_more_than_following_the_rows() -> 
     assert figure.goal == 25
 
 
-@pytest.mark.parametrize("record", [False, True])
+@pytest.mark.parametrize("record", [pytest.param(False, marks=pytest.mark.long), True])
 def test_the_loop_is_timed_once_a_frame_while_it_tracks(record: bool) -> None:
     spent_ms, passed_ms = loop_ms(1.0, record)
 
@@ -105,6 +105,7 @@ def test_the_loop_is_timed_once_a_frame_while_it_tracks(record: bool) -> None:
     assert (passed_ms > 0).all()
 
 
+@pytest.mark.long  # what it times is driven in tests/test_mission.py
 def test_a_mission_gives_its_real_time_factor_and_leaves_memory_out_when_quick() -> None:
     factor, recorded, *rest = mission_figures(1, 4.0, Plan(None, quick=True))
 
@@ -167,6 +168,7 @@ def test_a_soak_counts_every_round_and_times_those_that_track_alone() -> None:
     assert len(soaked.memory) == 2 * 8
 
 
+@pytest.mark.long  # the soak of a shorter time is in a test before
 def test_a_mission_that_is_over_ends_its_soak() -> None:
     field = revised(load_field("demo"), {"lanes": 1, "length_m": 4.0})
 

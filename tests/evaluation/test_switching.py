@@ -11,6 +11,7 @@ import pytest
 from fieldnav.evaluation.benchmark import Figure
 from fieldnav.evaluation.campaign import Failed
 from fieldnav.evaluation.path import TruePath
+from fieldnav.evaluation.row_end_cases import smaller
 from fieldnav.evaluation.switching import SwitchingPlan, failures_of, in_short
 from fieldnav.evaluation.switching_figures import switching_figures
 from fieldnav.evaluation.switching_plots import draw_switching
@@ -283,12 +284,9 @@ def test_nothing_is_drawn_where_nothing_was_driven(tmp_path: Path) -> None:
     assert list(tmp_path.iterdir()) == []
 
 
+@pytest.mark.long  # a mission with a switch: tests/test_mission.py; switches are judged in the tests above
 def test_a_run_is_driven_judged_and_leaves_nothing_behind(tmp_path: Path) -> None:
-    size = {"width_px": 640, "height_px": 360}
-    cameras = {name: getattr(ROBOT.cameras, name).model_copy(update=size) for name in ("front", "rear")}
-    small = ROBOT.model_copy(update={"cameras": ROBOT.cameras.model_copy(update=cameras)})
-
-    run = run_of(SPARSE_SEED, lanes=2, robot=small, folder=tmp_path).run
+    run = run_of(SPARSE_SEED, lanes=2, robot=smaller(smaller(ROBOT)), folder=tmp_path).run
     short = replace(run, field=revised(run.field, {"length_m": SHORTEST_M}))
 
     done = drive_switches(SwitchRun(short))

@@ -9,6 +9,7 @@ import pytest
 from rich.console import Console
 
 from fieldnav.cli.mission_report import report
+from fieldnav.evaluation.row_end_cases import smaller
 from fieldnav.journal.directory import RunDirectory
 from fieldnav.journal.entry import Line
 from fieldnav.journal.journal import read
@@ -36,10 +37,7 @@ KNOCKING_SEED, KNOCKING_DRAW = 5, 0.917
 
 
 def quick_robot() -> Robot:
-    robot = load_robot("bonnbot")
-    size = {"width_px": 640, "height_px": 360}
-    cameras = {name: getattr(robot.cameras, name).model_copy(update=size) for name in ("front", "rear")}
-    return robot.model_copy(update={"cameras": robot.cameras.model_copy(update=cameras)})
+    return smaller(smaller(load_robot("bonnbot")))
 
 
 def drive(parent: Path, tilt_error_deg: float) -> tuple[RunDirectory, Summary, list[Tick]]:
@@ -114,6 +112,7 @@ def test_the_summary_and_the_report_show_the_warning(
     assert reason in captured.get()
 
 
+@pytest.mark.long  # over two shorter lanes in tests/test_mission.py
 def test_calibration_errors_as_they_are_usual_give_no_warning(tmp_path: Path) -> None:
     directory, summary, _ = drive(tmp_path, load_field("demo").camera_errors.tilt_error_deg)
 

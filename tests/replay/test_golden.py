@@ -52,11 +52,11 @@ def test_a_golden_run_makes_the_transitions_that_it_made(name: str, tmp_path: Pa
 
 
 def test_a_change_of_a_threshold_is_told_in_a_readable_way(tmp_path: Path) -> None:
-    directory = unpacked("two-lanes", tmp_path)
+    directory = unpacked("gap", tmp_path)
     then = read_settings(directory.settings)
     further = then.crop.switching.model_copy(update={"headland_m": then.crop.switching.headland_m + 0.1})
     changed = type(then)(then.crop.model_copy(update={"switching": further}), then.robot, then.options)
 
     told = readable(moved(replay(directory, then, changed)))
 
-    assert "lane left: Forward.Exit -> Forward.Sidestep.Orienting: missing" in told
+    assert "last lane left: Forward.Exit -> Finished: missing" in told

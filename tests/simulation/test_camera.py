@@ -15,6 +15,7 @@ from fieldnav.simulation.camera import SimulatedCamera
 from fieldnav.simulation.plan import sow
 from fieldnav.simulation.renderer import FieldRenderer, View
 from fieldnav.simulation.shaking import Attitude, Shaking, rotation
+from fieldnav.simulation.sketch import SketchRenderer
 
 TICK_S = 0.02
 Make = Callable[..., Any]
@@ -239,7 +240,7 @@ def test_frames_come_late_and_some_never_as_set(driven: Make) -> None:
         ready=False,
         camera_errors={"latency_s": latency_s, "lost_frames": lost},
     )
-    renderer = FieldRenderer(run.plan, run.field, load_crop(run.field.crop))
+    renderer = SketchRenderer(run.plan, run.field, load_crop(run.field.crop))
     cameras = {name: SimulatedCamera(name, run.world, renderer) for name in CameraName}
     arrived: dict[CameraName, list[tuple[int, float, float]]] = {name: [] for name in CameraName}
 

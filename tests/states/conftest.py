@@ -24,7 +24,7 @@ LEAF = 0.4
 """Radius of a drawn plant over the canopy's width."""
 TICK_S = 1 / 15
 
-CAMERA = Pinhole(640, 360, 320 / tan(radians(69) / 2), 1.0, radians(65), 0.75)
+CAMERA = Pinhole(320, 180, 160 / tan(radians(69) / 2), 1.0, radians(65), 0.75)
 
 
 def rows(crop: CropProfile, from_m: float = 0.4, to_m: float = 2.6, offset_m: float = 0.0) -> np.ndarray:

@@ -133,7 +133,7 @@ def test_checking_refuses_a_camera_of_the_wrong_size(drawn: SimpleNamespace) -> 
     step = Checking(drawn.task).step(situation.seen({CameraName.REAR: image}))
 
     assert step.event is Event.FAIL
-    assert step.reason == "rear camera gives 640x480, its file says 640x360"
+    assert step.reason == "rear camera gives 640x480, its file says 320x180"
 
 
 def test_checking_gives_up_on_cameras_that_stay_dark(drawn: SimpleNamespace) -> None:

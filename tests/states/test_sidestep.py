@@ -1,6 +1,7 @@
 """The sidestep's states one after the other, led by drawn pictures, as the machine would have them."""
 
 from collections.abc import Callable
+from copy import deepcopy
 from dataclasses import replace
 from types import SimpleNamespace
 
@@ -93,7 +94,11 @@ def test_the_next_lane_is_reached_centred_and_verified(
     assert judged(steps[0], "rows of the next lane") == 3
 
 
-@pytest.mark.parametrize("missing", [0, 1, 2], ids=["near", "middle", "far"])
+@pytest.mark.parametrize(
+    "missing",
+    [pytest.param(0, marks=pytest.mark.long), 1, pytest.param(2, marks=pytest.mark.long)],
+    ids=["near", "middle", "far"],
+)
 def test_a_lane_with_one_row_less_is_taken_where_it_is(missing: int, drawn: SimpleNamespace) -> None:
     task = task_of(drawn, crop=known(drawn.crop))
     plants = drawn.lanes(task, Direction.FORWARD, without=((1, missing),))
@@ -179,9 +184,12 @@ def test_drawing_away_from_crop_is_bounded(drawn: SimpleNamespace) -> None:
     assert stepping.situation.pose.x_m < 0.1
 
 
-def reached(drawn: SimpleNamespace, crop: CropProfile | None = None) -> tuple[SimpleNamespace, LaneMemory]:
+Reached = tuple[SimpleNamespace, LaneMemory]
+
+
+def reached(drawn: SimpleNamespace) -> Reached:
     """A robot that has settled at the next lane."""
-    task = task_of(drawn, crop=crop or known(drawn.crop))
+    task = task_of(drawn, crop=known(drawn.crop))
     stepping = drawn.stepping(task, Direction.FORWARD, drawn.lanes(task, Direction.FORWARD))
     lane = at_the_end(task, Direction.FORWARD)
     for make in (CrossingRows, Settling):
@@ -190,10 +198,21 @@ def reached(drawn: SimpleNamespace, crop: CropProfile | None = None) -> tuple[Si
     return stepping, lane
 
 
+@pytest.fixture(scope="module")
+def settled_once(drawn: SimpleNamespace) -> Reached:
+    return reached(drawn)
+
+
+@pytest.fixture
+def settled(settled_once: Reached) -> Reached:
+    """A robot that has settled at the next lane, a copy for each test."""
+    return deepcopy(settled_once)
+
+
 def test_a_lane_that_does_not_look_like_one_is_refused_and_looked_for_again_from_the_old_one(
-    drawn: SimpleNamespace,
+    drawn: SimpleNamespace, settled: Reached
 ) -> None:
-    stepping, lane = reached(drawn)
+    stepping, lane = settled
     task, direction = stepping.task, stepping.direction
     bare = np.empty((0, 2))
 
@@ -213,8 +232,11 @@ def test_a_lane_that_does_not_look_like_one_is_refused_and_looked_for_again_from
     assert stepping.way_m == pytest.approx(drawn.pitch_m, abs=0.04)
 
 
-def test_a_lane_is_looked_for_no_more_often_than_the_profile_allows(drawn: SimpleNamespace) -> None:
-    stepping, lane = reached(drawn, known(drawn.crop, attempts=1))
+def test_a_lane_is_looked_for_no_more_often_than_the_profile_allows(
+    drawn: SimpleNamespace, settled: Reached
+) -> None:
+    stepping, lane = settled
+    stepping.task = task_of(drawn, crop=known(drawn.crop, attempts=1))
     here_m = stepping.way_m
     assert lane.switch
     lane.switch.refused = "it looked odd"
@@ -227,9 +249,9 @@ def test_a_lane_is_looked_for_no_more_often_than_the_profile_allows(drawn: Simpl
 
 
 def test_a_return_that_does_not_find_the_old_lane_stops_where_the_sidestep_began(
-    drawn: SimpleNamespace,
+    settled: Reached,
 ) -> None:
-    stepping, lane = reached(drawn)
+    stepping, lane = settled
 
     step = stepping.obey(Returning(stepping.task, stepping.direction, lane), MOST_FRAMES, np.empty((0, 2)))
 
@@ -237,8 +259,10 @@ def test_a_return_that_does_not_find_the_old_lane_stops_where_the_sidestep_began
     assert stepping.way_m == pytest.approx(0.0, abs=0.03)
 
 
-def test_a_lane_that_lies_off_when_seen_from_near_is_settled_again(drawn: SimpleNamespace) -> None:
-    stepping, lane = reached(drawn)
+def test_a_lane_that_lies_off_when_seen_from_near_is_settled_again(
+    drawn: SimpleNamespace, settled: Reached
+) -> None:
+    stepping, lane = settled
     task = task_of(drawn, crop=known(drawn.crop, centred_m=0.0001))
 
     step = stepping.obey(Verifying(task, stepping.direction, lane), MOST_FRAMES)
@@ -247,8 +271,8 @@ def test_a_lane_that_lies_off_when_seen_from_near_is_settled_again(drawn: Simple
     assert abs(judged(step, "distance to the new lane's centre")) > task.crop.switching.centred_m
 
 
-def test_verifying_does_not_decide_on_the_first_frame(drawn: SimpleNamespace) -> None:
-    stepping, lane = reached(drawn)
+def test_verifying_does_not_decide_on_the_first_frame(settled: Reached) -> None:
+    stepping, lane = settled
     verifying = Verifying(stepping.task, stepping.direction, lane)
     bare = np.empty((0, 2))
 
@@ -385,9 +409,9 @@ def test_the_camera_that_leads_is_not_asked_for(drawn: SimpleNamespace) -> None:
 
 
 def test_entering_goes_on_until_the_heading_is_known_well_and_no_further_than_its_bound(
-    drawn: SimpleNamespace,
+    drawn: SimpleNamespace, settled: Reached
 ) -> None:
-    stepping, lane = reached(drawn)
+    stepping, lane = settled
     task, direction = stepping.task, stepping.direction
     stepping.plants_m = drawn.lanes(task, direction)
     from_m = stepping.situation.pose.x_m
@@ -400,8 +424,8 @@ def test_entering_goes_on_until_the_heading_is_known_well_and_no_further_than_it
     assert 0 < driven_m < LONGEST_M + 0.05
 
 
-def test_entering_a_lane_that_vanishes_stops(drawn: SimpleNamespace) -> None:
-    stepping, lane = reached(drawn)
+def test_entering_a_lane_that_vanishes_stops(settled: Reached) -> None:
+    stepping, lane = settled
     assert lane.switch and lane.switch.crossing
     lane.switch.crossing = all_known(lane.switch.crossing)
 

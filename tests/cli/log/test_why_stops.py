@@ -34,7 +34,8 @@ class Drive:
         """The lines of `log why`; `then` is done once the mission stands."""
         directory = RunDirectory.create(self.runs, "demo", datetime(2026, 5, 1, 8, 30, tzinfo=UTC))
         field = revised(load_field("demo"), {"lanes": LANES, "length_m": LENGTH_M})
-        rig = Rig(Setting(field, load_crop(field.crop), smaller(load_robot("bonnbot"))), directory.path)
+        robot = smaller(smaller(load_robot("bonnbot")))
+        rig = Rig(Setting(field, load_crop(field.crop), robot), directory.path)
         try:
             rig.mission.start(0.0)
             self._until(rig, struck_s, stands=False)
@@ -67,7 +68,7 @@ CAUSES = {
     "camera frozen": "front camera: the same picture for",
     "camera black": "front camera: brightness 0 of 255, limit 10",
     "camera white": "front camera: brightness 255 of 255",
-    "camera of the wrong size": "front camera gives 320x180, its file says 640x360",
+    "camera of the wrong size": "front camera gives 160x90, its file says 320x180",
     "camera upside down": "front camera: the ground moves against what the wheels say",
     "frames late": "newest frame is 0.8",
     "module late": f"{FRONT_LEFT} last reported",

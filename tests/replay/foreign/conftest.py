@@ -1,7 +1,9 @@
 """A robot that rolls along one lane and past its end at a steady speed, recorded in every way."""
 
+import io
 import json
 from collections.abc import Callable
+from contextlib import redirect_stdout
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
@@ -237,27 +239,28 @@ def recordings(drive: Drive, tmp_path: Path) -> Recordings:
     return Recordings(drive, tmp_path)
 
 
+def options(robot_file: str, parent: Path, given: dict[str, Any]) -> Foreign:
+    """Sugar beet, the small robot, and what else is given."""
+    usual = Foreign(
+        crop="sugar-beet",
+        robot=robot_file,
+        front=None,
+        rear=None,
+        odometry=None,
+        speed_mps=SPEED_MPS,
+        direction=Direction.FORWARD,
+        rate_hz=None,
+        lanes=None,
+        side=Side.RIGHT,
+        parent=parent,
+    )
+    return replace(usual, **given)
+
+
 @pytest.fixture
 def asked(robot_file: str, tmp_path: Path) -> Callable[..., Foreign]:
-    """The options: sugar beet, the small robot, and what else is given."""
-
-    def asked(**given: Any) -> Foreign:
-        usual = Foreign(
-            crop="sugar-beet",
-            robot=robot_file,
-            front=None,
-            rear=None,
-            odometry=None,
-            speed_mps=SPEED_MPS,
-            direction=Direction.FORWARD,
-            rate_hz=None,
-            lanes=None,
-            side=Side.RIGHT,
-            parent=tmp_path / "runs",
-        )
-        return replace(usual, **given)
-
-    return asked
+    """The options of a replay into the test's own folder."""
+    return lambda **given: options(robot_file, tmp_path / "runs", given)
 
 
 @pytest.fixture
@@ -272,3 +275,30 @@ def replayed(
         return document
 
     return replayed
+
+
+@dataclass(frozen=True, slots=True)
+class Kept:
+    """A recording of both cameras that was replayed once for several tests."""
+
+    run: Path
+    said: str
+
+
+Keeping = Callable[..., Kept]
+
+
+@pytest.fixture(scope="session")
+def keeping(drive: Drive, robot_file: str, tmp_path_factory: pytest.TempPathFactory) -> Keeping:
+    """Writes a recording and replays it; the run's directory, and what was printed."""
+
+    def keeping(write: Callable[[Recordings], str], as_json: bool) -> Kept:
+        folder, said = tmp_path_factory.mktemp("kept"), io.StringIO()
+        both = {camera.value: topic for camera, topic in TOPICS.items()}
+        source = write(Recordings(drive, folder))
+        with redirect_stdout(said):
+            assert replay_foreign(source, options(robot_file, folder / "runs", both), as_json) == 0
+        (run,) = (folder / "runs").iterdir()
+        return Kept(run, said.getvalue())
+
+    return keeping

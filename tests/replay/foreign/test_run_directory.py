@@ -1,29 +1,21 @@
 """A foreign replay leaves a run's directory as any other run does."""
 
-from collections.abc import Callable
-from pathlib import Path
 from typing import Any
 
 import pytest
 
-from fieldnav.cli.replay_foreign import Foreign, replay_foreign
 from fieldnav.inquiry.outcome import Outcome, overview
 from fieldnav.journal.directory import RunDirectory
 from fieldnav.journal.journal import read
 from fieldnav.journal.resolved import read_settings
 from fieldnav.recording.recording import Recording
 
-BOTH = {"front": "/front/image_raw", "rear": "/rear/image_raw/compressed"}
 
-
-@pytest.fixture
-def run(
-    recordings: Any, asked: Callable[..., Foreign], tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> tuple[RunDirectory, str]:
+@pytest.fixture(scope="module")
+def run(keeping: Any) -> tuple[RunDirectory, str]:
     """The directory, and what a person reads."""
-    assert replay_foreign(recordings.mcap(), asked(**BOTH), as_json=False) == 0
-    (path,) = (tmp_path / "runs").iterdir()
-    return RunDirectory(path), capsys.readouterr().out
+    kept = keeping(lambda recordings: recordings.mcap(), as_json=False)
+    return RunDirectory(kept.run), kept.said
 
 
 def test_it_keeps_what_was_assumed_and_how_it_ended(run: tuple[RunDirectory, str]) -> None:
