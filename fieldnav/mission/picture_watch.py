@@ -22,6 +22,8 @@ FROZEN_M = 0.02
 STILL_SHARE = 0.9
 """Of the pixels that stay exactly as they were in the same picture, in which a clock may run: noise alone
 changes more of them from one picture to the next."""
+NEARLY_FROZEN_M = 0.05
+"""Driven under such a picture; two that are so much alike may be chance, three are not."""
 FROZEN_S = 5.0
 """The same picture to its last pixel for so long is none of a standing robot's either: leaves and light
 move."""
@@ -30,8 +32,6 @@ COLOUR_LEVELS, COLOURED_SHARE = 6, 0.05
 twentieth of dull soil has 11, a camera's night mode 0, JPEG's rounding 2."""
 DETAIL = 0.8
 """Grey levels; the barest soil has 5 drawn, 7 in photographs, flat soil under noise alone 1.1, mud 0.5."""
-DETAIL_S = 0.2
-"""So often that is looked at, and in every frame while there is too little."""
 LEFT_SHARE = 0.2
 """Of the plants that must be in view; wind and shaking leave more than half."""
 REMEMBERED_S = 4.0
@@ -52,7 +52,6 @@ class PictureWatch:
         self._before: View | None = None
         self._sample = self._image = np.empty(0, np.uint8)
         self._changed_s = 0.0
-        self._detail, self._detailed_s = DETAIL, float("-inf")
         self._changed_at = Pose()
 
     def objection(self, frame: Frame, track: Track, heard: bool = True) -> Trouble | None:
@@ -106,7 +105,9 @@ class PictureWatch:
             return None
         driven_m = self._changed_at.distance_m(pose)
         same_s = frame.stamp_s - self._changed_s
-        if driven_m <= FROZEN_M and not (same_s > FROZEN_S and same(frame.image, self._image)):
+        if driven_m <= (FROZEN_M if still == 1 else NEARLY_FROZEN_M) and not (
+            same_s > FROZEN_S and same(frame.image, self._image)
+        ):
             return None
         but = f", but for {1 - still:.0%} of it," if still < 1 else ""
         said = f"{frame.camera.value} camera: the same picture{but} for {same_s:.2f} s and {driven_m:.2f} m"
@@ -123,10 +124,9 @@ class PictureWatch:
         """Crop is told from soil by its colour: a grey picture shows no crop, and that is no sign of its
         end."""
         name = f"{frame.camera.value} camera"
-        if self._detail < DETAIL or frame.stamp_s - self._detailed_s >= DETAIL_S:
-            self._detail, self._detailed_s = detail(frame.image), frame.stamp_s
-        if self._detail < DETAIL:
-            said = f"{name}: nothing can be told apart in it, detail {self._detail:.1f}, limit {DETAIL:.1f}"
+        seen = detail(frame.image)
+        if seen < DETAIL:
+            said = f"{name}: nothing can be told apart in it, detail {seen:.1f}, limit {DETAIL:.1f}"
             return Trouble(FaultKind.CAMERA_BLIND, said)
         blue, green, red = cv2.split(sample)
         colour = cv2.subtract(cv2.max(cv2.max(blue, green), red), cv2.min(cv2.min(blue, green), red))

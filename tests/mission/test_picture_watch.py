@@ -130,7 +130,12 @@ def with_clock(rows: int, pictures: int = 8) -> list[Image]:
 def test_a_picture_that_stands_while_a_clock_runs_in_it_is_the_same_picture() -> None:
     said = drive(watching(), with_clock(rows=24), FROZEN_M)
     assert {each.fault for each in said} == {FaultKind.CAMERA_FROZEN}
-    assert "the same picture, but for 7% of it, for 0.13 s and 0.04 m" in said[0].said
+    assert "the same picture, but for 7% of it, for 0.20 s and 0.06 m" in said[0].said
+
+
+def test_two_pictures_that_are_nearly_the_same_are_chance() -> None:
+    others = [grey(90, 30.0, seed) for seed in range(50, 54)]
+    assert not drive(watching(), [*with_clock(rows=24, pictures=2), *others], 0.04)
 
 
 def test_a_picture_of_which_more_changes_is_left_to_be_held_against_the_motion() -> None:

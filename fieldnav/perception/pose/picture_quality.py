@@ -62,4 +62,5 @@ def detail(image: Image) -> float:
     """
     rows = image[:: max(1, len(image) // DETAIL_ROWS)]
     small = cv2.resize(rows, THUMBNAIL_PX, interpolation=cv2.INTER_AREA).astype(np.float32)
-    return float((small - cv2.GaussianBlur(small, (0, 0), COARSE_SD)).std(axis=(0, 1)).max())
+    fine = small - cv2.GaussianBlur(small, (0, 0), COARSE_SD)
+    return float(cv2.meanStdDev(fine)[1].max())
