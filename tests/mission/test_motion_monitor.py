@@ -120,7 +120,10 @@ def with_clock(image: Image, count: int, share: float = 0.02) -> Image:
     return shown
 
 
-@pytest.mark.parametrize("crop", CROPS)
+@pytest.mark.parametrize(
+    "crop",
+    [name if name in SOME_CROPS else pytest.param(name, marks=pytest.mark.long) for name in CROPS],
+)
 @pytest.mark.parametrize(("camera", "way"), [(FRONT, ALONG), (REAR, BACK), (REAR, ASIDE)])
 def test_pictures_that_move_as_the_wheels_say_are_never_accused(
     camera: CameraName, way: tuple[float, float], crop: str

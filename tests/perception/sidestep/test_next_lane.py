@@ -15,6 +15,7 @@ DRILLED, UNKNOWN = Expected(1.5, 0.1, 2.5), Expected(None, 0.1, 2.5)
 PATTERNS = pytest.mark.parametrize(
     ("rows", "spacing_m"), [(3, 0.35), (2, 0.55), (4, 0.25), (2, 0.75), (1, 0.5)]
 )
+SEEDS = pytest.mark.parametrize("seed", [1, *(pytest.param(seed, marks=pytest.mark.long) for seed in (2, 3))])
 LIKELY = 0.9
 
 
@@ -54,7 +55,7 @@ def test_a_mirrored_field_gives_the_same_lane(drawn: SimpleNamespace, stepping: 
 
 
 @pytest.mark.parametrize(("rows", "spacing_m"), [(3, 0.35), (2, 0.55), (2, 0.75), (4, 0.25)])
-@pytest.mark.parametrize("seed", [1, 2, 3])
+@SEEDS
 def test_a_lane_with_a_row_less_is_taken_where_the_drill_put_it(
     drawn: SimpleNamespace, stepping: SimpleNamespace, rows: int, spacing_m: float, seed: int
 ) -> None:
@@ -103,7 +104,7 @@ def test_a_lane_15_cm_off_the_drill_is_still_the_lane(
 
 
 @PATTERNS
-@pytest.mark.parametrize("seed", [1, 2, 3])
+@SEEDS
 def test_uneven_row_distances_are_borne(
     drawn: SimpleNamespace, stepping: SimpleNamespace, rows: int, spacing_m: float, seed: int
 ) -> None:
