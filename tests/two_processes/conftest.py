@@ -151,8 +151,8 @@ def load_bonnbot() -> dict[str, object]:
 
 
 def _write_robot(path: Path, robot: dict[str, object]) -> None:
-    """A sixteenth of the pixels, and deadlines that a machine shared with other tests can keep."""
+    """Half-size pictures, and deadlines that a machine shared with other tests can keep."""
     for camera in robot["cameras"].values():
-        camera["width_px"], camera["height_px"] = 320, 180
+        camera["width_px"], camera["height_px"] = 640, 360
     robot["timeouts"] |= {"loop_s": 1.0, "motion_s": 1.0, "frame_s": 1.0}
     path.write_text(yaml.safe_dump(robot), encoding="utf-8")
