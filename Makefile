@@ -14,7 +14,8 @@ PIP := $(BIN)/python -m pip --quiet --disable-pip-version-check
 
 LOWEST := .venv-lowest/bin
 PACKAGE := .venv-package/bin
-SHORT := -n 2 --dist loadfile -m "not long"
+TWO_AT_ONCE := -n 2 --dist loadfile
+SHORT := $(TWO_AT_ONCE) -m "not long"
 # The share of the tests that CI runs with the lowest versions: what leans on other packages most, in a minute.
 LOWEST_SHARE := tests/settings/test_wrong_input.py tests/drivers/test_thorvald.py tests/drivers/test_can_log.py \
 	tests/recording/test_schemas.py tests/recording/test_foxglove.py tests/states/test_diagram.py \
@@ -34,7 +35,7 @@ test: .venv/installed-dev
 	$(BIN)/pytest $(SHORT)
 
 test-long: .venv/installed-dev
-	$(BIN)/pytest -n 2 --dist loadfile -m long
+	$(BIN)/pytest $(TWO_AT_ONCE) -m long
 
 test-lowest: .venv-lowest/installed
 	$(LOWEST)/pytest $(SHORT)

@@ -45,7 +45,7 @@ def open_bus(settings: Bus) -> can.BusABC:
 
 
 def _reach_server(settings: Bus) -> None:
-    """Raise OSError where no socketcand answers, which python-can would wait for for ever."""
+    """Raise OSError where no socketcand answers: python-can would wait for it without end."""
     host, port = settings.options.get("host"), settings.options.get("port")
     if settings.interface == SOCKETCAND and isinstance(host, str) and isinstance(port, int):
         with socket.create_connection((host, port), SERVER_S) as server:

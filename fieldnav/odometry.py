@@ -58,14 +58,7 @@ class Track:
 
     def at(self, stamp_s: float) -> Pose:
         """The pose at a time; that at the nearest time kept where it lies beyond them."""
-        if self._end == 0:
-            return Pose()
-        first = max(0, self._end - self._kept)
-        after = first + int(self._table[0, first : self._end].searchsorted(stamp_s))
-        around = self._table[:, [max(after - 1, first), min(after, self._end - 1)]]
-        (before_s, *before), (after_s, *later) = around.T.tolist()
-        share = (stamp_s - before_s) / (after_s - before_s) if after_s > before_s else 0.0
-        return Pose(*before).between(Pose(*later), share)
+        return Pose(*self.all_at(np.array([stamp_s]))[:, 0].tolist())
 
     def all_at(self, stamps_s: Floats) -> Floats:
         """The poses at many times, shape (n,), each as `at` gives it; shape (3, n): x, y, heading."""

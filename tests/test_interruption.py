@@ -1,6 +1,5 @@
 """A run that is told to stop: the wheels stand still, the journal says who stopped it, nothing is lost."""
 
-import json
 import os
 import pty
 import signal
@@ -15,9 +14,7 @@ import pytest
 
 from drivers.thorvald_protocol import Kind
 from drivers.wire_layout import wire_layout
-from fieldnav.evaluation.row_end_cases import smaller
 from fieldnav.journal.journal import read
-from fieldnav.settings.loading import load_robot
 
 LONGEST_S = 60.0
 """To start up and to draw a few frames on a busy machine; a bound, not an expectation."""
@@ -42,18 +39,12 @@ def fieldnav(*arguments: str, python: tuple[str, ...] = ()) -> subprocess.Popen[
     return subprocess.Popen(command, stderr=subprocess.PIPE, stdout=subprocess.PIPE)
 
 
-@pytest.fixture(scope="module")
-def robot(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """A robot with small, quick cameras."""
-    path = tmp_path_factory.mktemp("robot") / "quick.yaml"
-    path.write_text(json.dumps(smaller(smaller(load_robot("bonnbot"))).model_dump(mode="json")))
-    return path
-
-
-def driving(folder: Path, robot: Path, terminal: tuple[int, int] | None = None) -> subprocess.Popen[bytes]:
+def driving(
+    folder: Path, quick_robot_file: Path, terminal: tuple[int, int] | None = None
+) -> subprocess.Popen[bytes]:
     """A simulated run that has begun to follow a lane; a terminal, its two ends, becomes its own."""
     field = ["demo", "--sketch", "--lanes", "1", "--length", "20"]
-    arguments = ["simulate", *field, "--robot", str(robot), "--out", str(folder)]
+    arguments = ["simulate", *field, "--robot", str(quick_robot_file), "--out", str(folder)]
     if terminal is None:
         run = fieldnav(*arguments)
     else:
@@ -88,16 +79,18 @@ def assert_ended_in_good_order(run: subprocess.Popen[bytes], runs: Path) -> Path
 
 @pytest.mark.parametrize("stop", [signal.SIGTERM, signal.SIGHUP])
 def test_a_run_that_is_told_to_stop_leaves_its_wheels_at_zero(
-    stop: signal.Signals, tmp_path: Path, robot: Path
+    stop: signal.Signals, tmp_path: Path, quick_robot_file: Path
 ) -> None:
-    run = driving(tmp_path, robot)
+    run = driving(tmp_path, quick_robot_file)
     run.send_signal(stop)
 
     assert_ended_in_good_order(run, tmp_path)
 
 
-def test_a_run_that_was_told_to_stop_is_replayed_without_a_difference(tmp_path: Path, robot: Path) -> None:
-    run = driving(tmp_path, robot)
+def test_a_run_that_was_told_to_stop_is_replayed_without_a_difference(
+    tmp_path: Path, quick_robot_file: Path
+) -> None:
+    run = driving(tmp_path, quick_robot_file)
     run.send_signal(signal.SIGINT)
     folder = assert_ended_in_good_order(run, tmp_path)
 
@@ -106,17 +99,19 @@ def test_a_run_that_was_told_to_stop_is_replayed_without_a_difference(tmp_path: 
     assert (again.returncode, b"no difference" in said) == (0, True), said
 
 
-def test_a_run_that_is_told_to_end_at_once_leaves_its_wheels_at_zero(tmp_path: Path, robot: Path) -> None:
-    run = driving(tmp_path, robot)
+def test_a_run_that_is_told_to_end_at_once_leaves_its_wheels_at_zero(
+    tmp_path: Path, quick_robot_file: Path
+) -> None:
+    run = driving(tmp_path, quick_robot_file)
     run.send_signal(signal.SIGQUIT)
 
     assert_ended_in_good_order(run, tmp_path)
 
 
 def test_a_run_that_is_told_to_stop_again_and_again_leaves_its_wheels_at_zero(
-    tmp_path: Path, robot: Path
+    tmp_path: Path, quick_robot_file: Path
 ) -> None:
-    run = driving(tmp_path, robot)
+    run = driving(tmp_path, quick_robot_file)
     while run.poll() is None:
         run.send_signal(signal.SIGINT)
         with suppress(subprocess.TimeoutExpired):
@@ -130,9 +125,9 @@ def test_a_run_that_is_told_to_stop_again_and_again_leaves_its_wheels_at_zero(
     assert not list(folder.glob(".*"))
 
 
-def test_a_run_whose_terminal_is_closed_stops_in_good_order(tmp_path: Path, robot: Path) -> None:
+def test_a_run_whose_terminal_is_closed_stops_in_good_order(tmp_path: Path, quick_robot_file: Path) -> None:
     terminal = pty.openpty()
-    run = driving(tmp_path, robot, terminal)
+    run = driving(tmp_path, quick_robot_file, terminal)
     for end in terminal:
         os.close(end)
 
@@ -144,8 +139,10 @@ def test_a_run_whose_terminal_is_closed_stops_in_good_order(tmp_path: Path, robo
     assert (folder / "summary.json").exists()
 
 
-def test_a_run_that_is_killed_leaves_no_file_that_means_nothing(tmp_path: Path, robot: Path) -> None:
-    run = driving(tmp_path, robot)
+def test_a_run_that_is_killed_leaves_no_file_that_means_nothing(
+    tmp_path: Path, quick_robot_file: Path
+) -> None:
+    run = driving(tmp_path, quick_robot_file)
     run.kill()
     run.communicate(timeout=LONGEST_S)
 

@@ -157,11 +157,10 @@ def open_umask() -> Iterator[None]:
 
 
 def test_the_same_seed_gives_the_same_journal_and_the_same_frames_on_the_bus(
-    tmp_path: Path, open_umask: None, capsys: pytest.CaptureFixture[str]
+    tmp_path: Path, quick_robot_file: Path, open_umask: None, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    robot = tmp_path / "quick.yaml"
-    robot.write_text(json.dumps(quick_robot().model_dump(mode="json")))
-    arguments = ["simulate", "demo", "--lanes", "1", "--length", "4", "--robot", str(robot), "--json"]
+    short = ["--lanes", "1", "--length", "4", "--robot", str(quick_robot_file)]
+    arguments = ["simulate", "demo", *short, "--json"]
     runs = []
     for name in ("first", "second"):
         assert command([*arguments, "--out", str(tmp_path / name)]) == 0

@@ -1,6 +1,5 @@
 """The README tells the truth: every command in it runs, and its diagram is the machine's."""
 
-import json
 import re
 import shlex
 import shutil
@@ -10,16 +9,12 @@ from pathlib import Path
 import pytest
 
 from fieldnav.cli.app import run
-from fieldnav.evaluation.row_end_cases import smaller
-from fieldnav.settings.loading import load_robot
 from states.diagram import mermaid
 
 ROOT = Path(__file__).parent.parent
 README = (ROOT / "README.md").read_text(encoding="utf-8")
 SHORT = {"--lanes": "1", "--length": "4"}
 """Simulations are run as written, only on a shorter field; sketched ones are short."""
-QUICK_ROBOT = "quick.yaml"
-"""Simulations and what replays them cost less with its cameras of a quarter of the width and the height."""
 FAILS = "status 1"
 """What the comment of a command says that does not succeed, and should not."""
 
@@ -43,9 +38,9 @@ def of_a_robot(arguments: list[str]) -> bool:
     return arguments[0] in ("check", "run", "ctl") or "--serve" in arguments
 
 
-def shortened(arguments: list[str]) -> list[str]:
-    """A simulation on a shorter field, by the quick robot."""
-    kept = [*arguments, "--robot", f"./{QUICK_ROBOT}"]
+def shortened(arguments: list[str], robot: Path) -> list[str]:
+    """A simulation on a shorter field, by a robot with small cameras: what replays it costs less, too."""
+    kept = [*arguments, "--robot", str(robot)]
     if "--sketch" in arguments:
         return kept
     for option, value in SHORT.items():
@@ -67,16 +62,17 @@ def test_make_targets_exist(arguments: list[str]) -> None:
 
 
 def test_every_fieldnav_command_runs_in_the_readmes_order(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+    tmp_path: Path,
+    quick_robot_file: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
 ) -> None:
     for folder in ("config", "docs"):
         shutil.copytree(ROOT / folder, tmp_path / folder)
     monkeypatch.chdir(tmp_path)
-    robot = smaller(smaller(load_robot("bonnbot")))
-    (tmp_path / QUICK_ROBOT).write_text(json.dumps(robot.model_dump(mode="json")))
     failing = [shlex.split(line, comments=True)[1:] for line in lines() if FAILS in line]
     for arguments in ours("fieldnav"):
-        called = shortened(arguments) if arguments[0] == "simulate" else arguments
+        called = shortened(arguments, quick_robot_file) if arguments[0] == "simulate" else arguments
         if of_a_robot(arguments):
             called = [*arguments, "--help"]  # which still refuses an option that there is not
         status = run(called)

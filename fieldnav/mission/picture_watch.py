@@ -105,9 +105,8 @@ class PictureWatch:
             return None
         driven_m = self._changed_at.distance_m(pose)
         same_s = frame.stamp_s - self._changed_s
-        if driven_m <= (FROZEN_M if still == 1 else NEARLY_FROZEN_M) and not (
-            same_s > FROZEN_S and same(frame.image, self._image)
-        ):
+        far_m = FROZEN_M if still == 1 else NEARLY_FROZEN_M
+        if driven_m <= far_m and not (same_s > FROZEN_S and same(frame.image, self._image)):
             return None
         but = f", but for {1 - still:.0%} of it," if still < 1 else ""
         said = f"{frame.camera.value} camera: the same picture{but} for {same_s:.2f} s and {driven_m:.2f} m"

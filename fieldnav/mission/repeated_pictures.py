@@ -41,8 +41,8 @@ class RepeatedPictures:
         if check == self._last:
             return None
         self._last = check
-        while self._shown and stamp_s - next(iter(self._shown.values())).stamp_s > REMEMBERED_S:
-            del self._shown[next(iter(self._shown))]
+        while self._shown and stamp_s - self._shown[oldest := next(iter(self._shown))].stamp_s > REMEMBERED_S:
+            del self._shown[oldest]
         first = self._shown.setdefault(check, _Shown(stamp_s, pose))
         self._repeated = self._repeated + 1 if first.pose.distance_m(pose) >= MOVED_M else 0
         return stamp_s - first.stamp_s if self._repeated >= MIN_REPEATED else None

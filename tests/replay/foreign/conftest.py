@@ -11,7 +11,6 @@ from typing import Any
 import cv2
 import numpy as np
 import pytest
-import yaml
 from foxglove_schemas_protobuf.CompressedImage_pb2 import CompressedImage
 from google.protobuf.timestamp_pb2 import Timestamp
 from mcap_protobuf.writer import Writer as McapWriter
@@ -90,14 +89,6 @@ def drive() -> Drive:
                 pictures.append(Picture(name, BEGUN_NS + round(frame.stamp_s * NS_PER_S), frame.image))
     followed = offsets[: round(LANE_M / SPEED_MPS / TICK_S)]
     return Drive(tuple(pictures), sum(followed) / len(followed))
-
-
-@pytest.fixture(scope="session")
-def robot_file(tmp_path_factory: pytest.TempPathFactory) -> str:
-    """The robot whose cameras have the pictures' size."""
-    path = tmp_path_factory.mktemp("robot") / "small.yaml"
-    path.write_text(yaml.safe_dump(smaller(smaller(load_robot("bonnbot"))).model_dump(mode="json")))
-    return str(path)
 
 
 Clocks = Callable[[CameraName, int, int], tuple[int, int]]
@@ -239,11 +230,11 @@ def recordings(drive: Drive, tmp_path: Path) -> Recordings:
     return Recordings(drive, tmp_path)
 
 
-def options(robot_file: str, parent: Path, given: dict[str, Any]) -> Foreign:
+def options(robot: Path, parent: Path, given: dict[str, Any]) -> Foreign:
     """Sugar beet, the small robot, and what else is given."""
     usual = Foreign(
         crop="sugar-beet",
-        robot=robot_file,
+        robot=str(robot),
         front=None,
         rear=None,
         odometry=None,
@@ -258,9 +249,9 @@ def options(robot_file: str, parent: Path, given: dict[str, Any]) -> Foreign:
 
 
 @pytest.fixture
-def asked(robot_file: str, tmp_path: Path) -> Callable[..., Foreign]:
+def asked(quick_robot_file: Path, tmp_path: Path) -> Callable[..., Foreign]:
     """The options of a replay into the test's own folder."""
-    return lambda **given: options(robot_file, tmp_path / "runs", given)
+    return lambda **given: options(quick_robot_file, tmp_path / "runs", given)
 
 
 @pytest.fixture
@@ -289,7 +280,7 @@ Keeping = Callable[..., Kept]
 
 
 @pytest.fixture(scope="session")
-def keeping(drive: Drive, robot_file: str, tmp_path_factory: pytest.TempPathFactory) -> Keeping:
+def keeping(drive: Drive, quick_robot_file: Path, tmp_path_factory: pytest.TempPathFactory) -> Keeping:
     """Writes a recording and replays it; the run's directory, and what was printed."""
 
     def keeping(write: Callable[[Recordings], str], as_json: bool) -> Kept:
@@ -297,7 +288,7 @@ def keeping(drive: Drive, robot_file: str, tmp_path_factory: pytest.TempPathFact
         both = {camera.value: topic for camera, topic in TOPICS.items()}
         source = write(Recordings(drive, folder))
         with redirect_stdout(said):
-            assert replay_foreign(source, options(robot_file, folder / "runs", both), as_json) == 0
+            assert replay_foreign(source, options(quick_robot_file, folder / "runs", both), as_json) == 0
         (run,) = (folder / "runs").iterdir()
         return Kept(run, said.getvalue())
 

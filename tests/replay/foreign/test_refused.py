@@ -160,11 +160,11 @@ def test_a_crop_must_be_named(recordings: Any, asked: Asked) -> None:
     assert refused(recordings.bag1(), asked(**FRONT, crop=None)).startswith("--crop: is not given")
 
 
-def test_a_run_of_ours_wants_none_of_the_options(robot_file: str, asked: Asked) -> None:
+def test_a_run_of_ours_wants_none_of_the_options(quick_robot_file: Path, asked: Asked) -> None:
     refuse_for_run("last", asked(robot=None, speed_mps=None))
 
     with pytest.raises(SettingsError, match=r"^--robot, --rate: last is a run of fieldnav's"):
-        refuse_for_run("last", asked(robot=robot_file, speed_mps=None, rate_hz=15.0))
+        refuse_for_run("last", asked(robot=str(quick_robot_file), speed_mps=None, rate_hz=15.0))
 
 
 def test_a_run_is_not_foreign_and_a_name_neither(recordings: Any, tmp_path: Path) -> None:
