@@ -177,7 +177,7 @@ FAULTS: dict[FaultKind, Declared] = {
     ),
     FaultKind.LOOP_LATE: Declared(
         Reaction.STOP,
-        "two rounds further apart than timeouts.loop_s, or time that runs backwards",
+        "two rounds further apart than timeouts.loop_s, one that takes longer, or time that runs backwards",
         "find what else loads the computer",
     ),
     FaultKind.DISK_FULL: Declared(Reaction.LATCH, "the journal cannot be written", "make room on the disk"),

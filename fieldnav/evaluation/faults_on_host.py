@@ -8,6 +8,7 @@ from fieldnav.evaluation.faults_injection import Injection, broken
 from fieldnav.evaluation.faults_mistake import Mistaken
 from fieldnav.evaluation.faults_rig import Rig
 from fieldnav.faults import FaultKind
+from fieldnav.mission.loop import TICK_S
 
 FLOOD, ERRORS = 100, 4
 """Frames in each round of 20 ms: 5000 and 200 a second."""
@@ -37,6 +38,7 @@ def of_host() -> tuple[Injection, ...]:
         Injection(FaultKind.WALL_CLOCK, _set_wall_clock),
         Injection(FaultKind.LOOP_LATE, _stumble),
         Injection(FaultKind.LOOP_LATE, _suspend, called="process suspended"),
+        Injection(FaultKind.LOOP_LATE, _suspend_within, called="process suspended in a round"),
         Injection(FaultKind.DISK_FULL, _fill_disk),
         Injection(FaultKind.PROGRAM, _make_mistake),
         Injection(FaultKind.PROCESS_KILLED, _kill),
@@ -86,6 +88,12 @@ def _stumble(rig: Rig) -> None:
 
 def _suspend(rig: Rig) -> None:
     rig.absent.append((rig.now_s, rig.now_s + SUSPENDED_S))
+
+
+def _suspend_within(rig: Rig) -> None:
+    rig.stalled_s = SUSPENDED_S
+    begun_s = rig.now_s + TICK_S  # of the next round, in whose middle the process stays
+    rig.absent.append((begun_s + TICK_S / 2, begun_s + SUSPENDED_S))
 
 
 def _fill_disk(rig: Rig) -> None:

@@ -95,11 +95,13 @@ class Rig:
             self.paper.journal,
             [self.path, self.newest, tape],
             self.paper.ledger,
+            clock=tape.clock(lambda: self.now_s + self.stalled_s),
         )
         self.operating, self._clock = Operating(self.mission, tape), RunClock()
         self.robot, self.crop = robot, setting.crop
         self.now_s, self._ticks = 0.0, 0
         self.absent: list[tuple[float, float]] = []  # spans of time in which the process does not run
+        self.stalled_s = 0.0  # for so long the process is kept in the middle of its next round
         self.killed = False
         self.guided_by: tuple[CameraName, ...] = ()  # in the newest round, from its beginning
         self.broken_off = ""
@@ -130,6 +132,7 @@ class Rig:
         if not (self.killed or any(from_s < self.now_s < to_s for from_s, to_s in self.absent)):
             self.guided_by = self.guides
             self.guarded(self._mission_round)
+            self.stalled_s = 0.0
         for look in self.after:
             look()
 

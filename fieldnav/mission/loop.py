@@ -1,6 +1,6 @@
 """The loop: frame to perception to state to gate, once a tick."""
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from contextlib import suppress
 from dataclasses import replace
 from math import inf
@@ -52,10 +52,11 @@ class Mission:
         ledger: Ledger | None = None,
         confirmations: Confirmations | None = None,
         commanding: bool = True,
+        clock: Callable[[], float] | None = None,
     ) -> None:
-        """commanding: False in a dry run, whose wheels do not do what they are told."""
+        """commanding: False in a dry run, whose wheels do not do what they are told; clock: see Gate."""
         self.wheels = wheels
-        self._gate, self.travel = Gate(wheels, robot), Travel(robot)
+        self._gate, self.travel = Gate(wheels, robot, clock), Travel(robot)
         self._eyes = Eyes(cameras, task.cameras, robot)
         self._watches = Watches(robot, task, commanding)
         self.course = Course(task, self.travel, journal, observers, ledger, confirmations)

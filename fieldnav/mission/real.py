@@ -106,6 +106,7 @@ def drive(
             ledger,
             Confirmations(order.confirm),
             commanding=not order.dry_run,
+            clock=tape.clock(clock),
         )
         operating = Operating(mission, tape)
         if order.resumed is not None:

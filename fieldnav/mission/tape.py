@@ -1,6 +1,6 @@
 """What comes to a mission from outside and what goes out of it, on its way into the recording."""
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from datetime import UTC, datetime
 from typing import Any
@@ -57,6 +57,17 @@ class Tape:
             if self._recorder is not None:
                 self._recorder.put(self._round)
             self._round = None
+
+    def clock(self, clock: Callable[[], float]) -> Callable[[], float]:
+        """A clock; what it tells in a round is taped."""
+
+        def read_s() -> float:
+            told_s = clock()
+            if self._round is not None:
+                self._round.read_s = told_s
+            return told_s
+
+        return read_s
 
     def frame(self, frame: Frame) -> None:
         """A frame was taken in."""

@@ -96,7 +96,7 @@ class Round(Record):
 
     number: counts the rounds of one process. by: who asked, or why. fault: of a note. latched: of a
     break-off. lines: the numbers of the lines in the journal that came of it. booking: the place at which a
-    run that was broken off is taken up.
+    run that was broken off is taken up. read_s: what the clock told before the wheels were commanded.
     """
 
     call: Call
@@ -110,6 +110,7 @@ class Round(Record):
     wires: tuple[Wire, ...] = ()
     lines: tuple[int, ...] = ()
     booking: Booking | None = None
+    read_s: float | None = None
 
 
 class Module(Record):

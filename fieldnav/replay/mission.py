@@ -59,6 +59,7 @@ class ReplayedMission:
         self._lines = Lines(begun_utc)
         self._cameras = {name: ReplayedCamera(name) for name in CameraName}
         self.bus = ReplayedBus()
+        self._read_s = 0.0
         try:
             self._begin()
         except FieldnavError:
@@ -73,6 +74,7 @@ class ReplayedMission:
         for camera in self._cameras.values():
             camera.begin(taken.frames, taken.round.lost)
         self.bus.begin(taken.round.wires)
+        self._read_s = taken.round.now_s if taken.round.read_s is None else taken.round.read_s
         try:
             with suppress(FieldnavError):  # the mission has broken off, as its last line says
                 self._do(taken.round)
@@ -137,5 +139,6 @@ class ReplayedMission:
             self._observers,
             confirmations=Confirmations(order.asked),
             commanding=not order.dry_run,
+            clock=lambda: self._read_s,
         )
         self._operating = Operating(self.mission)

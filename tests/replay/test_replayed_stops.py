@@ -31,6 +31,7 @@ STOPS = (
     "foreign command",
     "battery flat",
     "loop late",
+    "process suspended in a round",
 )
 
 
@@ -71,13 +72,14 @@ class Drive:
 @pytest.mark.parametrize("name", STOPS)
 def test_a_stop_is_repeated_bit_for_bit(name: str, tmp_path: Path) -> None:
     drive = Drive(tmp_path)
-    next(each for each in injections() if each.name == name).strike(drive.rig)
+    injection = next(each for each in injections() if each.name == name)
+    injection.strike(drive.rig)
     drive.until(STRUCK_S + WATCHED_S, stands=True)
     drive.until(drive.rig.now_s + RESTS_S)
 
     done = drive.again()
 
-    assert read(drive.directory.journal)[-1].reason.startswith(name)
+    assert read(drive.directory.journal)[-1].reason.startswith(injection.fault.value)
     assert done.same, done
 
 
