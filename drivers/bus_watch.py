@@ -19,13 +19,19 @@ BUS_OFF_BIT = 0x40
 
 
 class BusWatch:
-    """A leaky bucket of frames and one of error frames; raises DriverError when either runs over."""
+    """A leaky bucket of frames and one of error frames; raises DriverError when either runs over.
+
+    After a pause the frames that waited come round by round: what the bucket could have leaked is kept for
+    them until there are no more.
+    """
 
     def __init__(self, settings: Bus) -> None:
         self._frames_per_s = FULLEST * settings.bitrate / FRAME_BITS
         self._most = self._frames_per_s * BURST_S
         self._frames = self._errors = 0.0
         self._judged_s: float | None = None
+        self._taken = 0
+        self._taken_s: tuple[float, float] | None = None  # the first and the last since then, by their stamps
 
     @property
     def most_at_once(self) -> int:
@@ -35,6 +41,9 @@ class BusWatch:
     def take(self, frame: can.Message) -> None:
         """Count a frame. Raises DriverError where it says that the bus is off."""
         self._frames += 1
+        self._taken += 1
+        first_s = frame.timestamp if self._taken_s is None else self._taken_s[0]
+        self._taken_s = first_s, frame.timestamp
         if frame.is_error_frame:
             self._errors += 1
             if frame.arbitration_id & BUS_OFF_BIT:
@@ -45,8 +54,13 @@ class BusWatch:
         if self._judged_s is None:  # what comes first may have waited for any time
             self._frames = self._errors = 0.0
         passed_s = 0.0 if self._judged_s is None else max(0.0, now_s - self._judged_s)
-        self._judged_s = now_s
-        self._frames = max(0.0, self._frames - passed_s * self._frames_per_s)
+        if self._taken_s is not None:  # a process that is suspended while it reads goes on in an old round
+            passed_s = max(passed_s, self._taken_s[1] - self._taken_s[0])
+        more_wait = self._taken >= self.most_at_once
+        self._judged_s, self._taken_s, self._taken = now_s, None, 0
+        self._frames -= passed_s * self._frames_per_s
+        if not more_wait:
+            self._frames = max(0.0, self._frames)
         self._errors = max(0.0, self._errors - passed_s * MOST_ERRORS)
         if self._frames > self._most:
             waiting, self._frames = self._frames, 0.0

@@ -34,6 +34,21 @@ def listen(
         watch.judge(from_s + tick * TICK_S)
 
 
+def catch_up(watch: BusWatch, waiting: int, from_s: float) -> None:
+    """Rounds of the loop in which frames are read that have waited."""
+    tick = 0
+    while waiting > 0:
+        for _ in range(min(waiting, watch.most_at_once)):
+            watch.take(FRAME)
+        waiting -= watch.most_at_once
+        watch.judge(from_s + tick * TICK_S)
+        tick += 1
+
+
+def stamped(stamp_s: float) -> can.Message:
+    return can.Message(timestamp=stamp_s, arbitration_id=0x181, is_extended_id=False, data=bytes(8))
+
+
 def test_the_robots_own_traffic_is_no_flood() -> None:
     listen(BusWatch(BUS), 60.0, OWN_PER_S)
 
@@ -53,10 +68,28 @@ def test_a_bus_that_is_not_full_is_never_a_flood(share: float) -> None:
 def test_what_waited_while_nobody_listened_is_no_flood() -> None:
     watch = BusWatch(BUS)
     listen(watch, 1.0, OWN_PER_S)
-    for _ in range(round(5.0 * OWN_PER_S)):
-        watch.take(FRAME)
-    watch.judge(6.0)
-    listen(watch, 1.0, OWN_PER_S, from_s=6.0)
+    catch_up(watch, round(5.0 * OWN_PER_S), from_s=6.0)
+    listen(watch, 1.0, OWN_PER_S, from_s=7.0)
+
+
+def test_what_waited_for_a_process_that_was_suspended_while_it_read_is_no_flood() -> None:
+    watch = BusWatch(BUS)
+    listen(watch, 1.0, OWN_PER_S)
+    watch.take(stamped(1.02))
+    for _ in range(watch.most_at_once - 1):
+        watch.take(stamped(6.0))
+    watch.judge(1.02)
+    catch_up(watch, round(5.0 * OWN_PER_S) - watch.most_at_once, from_s=6.0)
+    listen(watch, 1.0, OWN_PER_S, from_s=7.0)
+
+
+def test_a_flood_after_a_pause_is_noticed_once_nothing_waits_any_more() -> None:
+    watch = BusWatch(BUS)
+    listen(watch, 1.0, OWN_PER_S)
+    catch_up(watch, round(60.0 * OWN_PER_S), from_s=61.0)
+    with pytest.raises(DriverError) as caught:
+        listen(watch, 1.0, 0.9 * WIRE_PER_S, from_s=62.0)
+    assert caught.value.fault is FaultKind.BUS_FLOODED
 
 
 def test_what_waited_before_the_first_round_is_no_flood() -> None:
