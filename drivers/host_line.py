@@ -1,6 +1,7 @@
 """The host's side of the bus: the telegrams it sends, and those it takes in."""
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
+from math import inf
 
 import can
 
@@ -11,6 +12,7 @@ from drivers.reopened_bus import BUS_ERRORS, said
 from drivers.thorvald_protocol import Kind, Mode, NmtCommand, NodeState, RoboteqObject, SdoCommand
 from drivers.wire_layout import NO_NODE, Telegram, wire_layout
 from fieldnav.errors import DriverError
+from fieldnav.faults import FaultKind
 from fieldnav.settings.robot import Bus, Module
 
 LAST_SEQUENCE = 2**31 - 1
@@ -20,8 +22,12 @@ LAST_SEQUENCE = 2**31 - 1
 class HostLine:
     """What the host says to the modules. Every method raises DriverError when the bus refuses."""
 
-    def __init__(self, bus: can.BusABC, settings: Bus) -> None:
+    def __init__(
+        self, bus: can.BusABC, settings: Bus, clock: Callable[[], float] | None = None, loop_s: float = inf
+    ) -> None:
+        """clock: the one by which rounds begin, None in simulated time; loop_s: a round's longest time."""
         self._bus, self._own = bus, OwnFrames()
+        self._clock, self._loop_s = clock, loop_s
         self._watch = BusWatch(settings)
         self._layout = wire_layout()
         self._refused = ""
@@ -74,6 +80,13 @@ class HostLine:
         """Write 1 to an object that acts when written."""
         values = {"Command": SdoCommand.WRITE_1_BYTE, "Index": entry, "Subindex": 0, "Value": 1}
         self._send(now_s, module.node_id, Kind.SDO_REQUEST, **values)
+
+    def check_decided(self, now_s: float) -> None:
+        """Raise DriverError where the round has taken so long that what it decided no longer holds."""
+        spent_s = 0.0 if self._clock is None else self._clock() - now_s
+        if not 0 <= spent_s <= self._loop_s:
+            said = f"its set-point was decided {spent_s:.2f} s ago, limit {self._loop_s:.2f} s"
+            raise DriverError(said, FaultKind.LOOP_LATE)
 
     def check(self) -> None:
         """Raise once more what the last frame met with, if it did not go out."""

@@ -21,7 +21,11 @@ class ModuleRounds:
         self._links = links
 
     def drive(self, now_s: float, setpoints: Mapping[Wheel, WheelSetpoint]) -> None:
-        """A set-point for each module; zero at its present angle for a wheel that is not mentioned."""
+        """A set-point for each module; zero at its present angle for a wheel that is not mentioned.
+
+        A process may be suspended between any two frames: where something is to move, each is looked at.
+        """
+        moves = any(point.speed_mps for point in setpoints.values())
         self._line.begin_command()
         frames: list[tuple[ModuleLink, Frame]] = []
         for wheel, link in self._links.items():
@@ -31,7 +35,7 @@ class ModuleRounds:
             steering_rad = point.steering_rad if point else link.steering_rad
             if steering_rad is not None:  # a wheel whose angle is not known is left where it is
                 frames.append((link, partial(self._line.steer, now_s, link.module, steering_rad)))
-        _send_all(frames)
+        _send_all(frames, partial(self._line.check_decided, now_s) if moves else None)
 
     def ask(self, now_s: float) -> None:
         """Start every module that is not in operation, and ask each for its fault flags."""
@@ -61,10 +65,12 @@ class ModuleRounds:
         _send_all([(link, partial(self._line.set_object, now_s, link.module, entry)) for link in links])
 
 
-def _send_all(frames: Iterable[tuple[ModuleLink, Frame]]) -> None:
+def _send_all(frames: Iterable[tuple[ModuleLink, Frame]], check: Callable[[], None] | None = None) -> None:
     first: DriverError | None = None
     for link, send in frames:
         try:
+            if check is not None:
+                check()
             send()
         except DriverError as error:
             if first is None:

@@ -4,7 +4,7 @@ No thread and no clock: `poll` takes in what has come and does what is due at th
 """
 
 import math
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from contextlib import suppress
 
 import can
@@ -40,11 +40,13 @@ class ThorvaldWheels:
         bus: can.BusABC,
         listening: bool = False,
         asked: frozenset[Missing] = ASKED,
+        clock: Callable[[], float] | None = None,
     ) -> None:
-        """listening: nothing goes out, so that others may command the wheels; asked: see ModuleLink."""
+        """listening: nothing goes out, so that others may command the wheels; asked: see ModuleLink; clock:
+        see HostLine."""
         check_nodes(robot)
         self._listening = listening
-        self._line = HostLine(bus, robot.can)
+        self._line = HostLine(bus, robot.can, clock, robot.timeouts.loop_s)
         self._timeouts = robot.timeouts
         asked = frozenset() if listening else asked
         self._links = {wheel: ModuleLink(wheel, robot.modules[wheel], asked) for wheel in Wheel}
@@ -116,8 +118,8 @@ class ThorvaldWheels:
         """Send a set-point to each module; zero while not `ready` and to a wheel that is not mentioned.
 
         While somebody else commands the wheels nothing is sent: two hosts would make them jerk.
-        Raises DriverError when a number is not finite (zero has then been sent) or the bus refuses a frame
-        (the other modules then have theirs).
+        Raises DriverError when a number is not finite (zero has then been sent), the bus refuses a frame (the
+        other modules then have theirs), or a set-point that moves was decided too long ago.
         """
         self._commanded_s = now_s
         numbers = [number for point in setpoints.values() for number in (point.speed_mps, point.steering_rad)]

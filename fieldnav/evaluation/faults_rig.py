@@ -91,11 +91,10 @@ class Rig:
             robot,
             task,
             taped_cameras(tape, self.cameras, robot),
-            ThorvaldWheels(robot, taped),
+            ThorvaldWheels(robot, taped, clock=tape.clock(lambda: self.now_s + self.stalled_s)),
             self.paper.journal,
             [self.path, self.newest, tape],
             self.paper.ledger,
-            clock=tape.clock(lambda: self.now_s + self.stalled_s),
         )
         self.operating, self._clock = Operating(self.mission, tape), RunClock()
         self.robot, self.crop = robot, setting.crop

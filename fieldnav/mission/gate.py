@@ -1,13 +1,13 @@
 """The gate: the only way from what a state wants to the wheels, and the only caller of their `command`."""
 
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass
 from math import cos, inf, pi, radians
 
 from drivers.ports import Wheels
 from fieldnav.control.kinematics import wheel_setpoints
 from fieldnav.control.limits import limit
-from fieldnav.faults import FaultKind, Trouble
+from fieldnav.faults import Trouble
 from fieldnav.messages import STANDSTILL, Motion, Steering, Twist, Wheel, WheelReport, WheelSetpoint
 from fieldnav.mission.refusal import Sight, refusal
 from fieldnav.settings.robot import Robot
@@ -40,9 +40,8 @@ class Passed:
 class Gate:
     """Limits speed, acceleration and steering rate; refuses stale input; zero outside moving states."""
 
-    def __init__(self, wheels: Wheels, robot: Robot, clock: Callable[[], float] | None = None) -> None:
-        """clock: the one by which rounds begin; None in simulated time, in which a round takes none."""
-        self._wheels, self._clock = wheels, clock
+    def __init__(self, wheels: Wheels, robot: Robot) -> None:
+        self._wheels = wheels
         self._geometry = robot.geometry
         self._timeouts = robot.timeouts
         top_mps = min(module.top_speed_mps for module in robot.modules.values())
@@ -70,9 +69,7 @@ class Gate:
         dt_s = 0.0 if self._passed_s is None else min(max(now_s - self._passed_s, 0.0), LONGEST_STEP_S)
         self._passed_s = now_s
         present = {wheel: module.steering_rad for wheel, module in report.modules.items()}
-        refused = None
-        if moving:
-            refused = refusal(now_s, motion.twist, sight, report, self._timeouts) or self._overdue(now_s)
+        refused = refusal(now_s, motion.twist, sight, report, self._timeouts) if moving else None
         if refused is not None or not moving:
             return self._halt(now_s, present, refused)
         return self._drive(now_s, dt_s, motion, present, report)
@@ -80,14 +77,6 @@ class Gate:
     def halted(self) -> None:
         """The wheels have been told to stop without the gate: what follows begins from standstill."""
         self._twist, self._error_rad = STANDSTILL, inf
-
-    def _overdue(self, now_s: float) -> Trouble | None:
-        """Whether the round has taken so long, as of a process that was suspended, that nothing holds."""
-        spent_s = 0.0 if self._clock is None else self._clock() - now_s
-        if 0 <= spent_s <= self._timeouts.loop_s:
-            return None
-        said = f"the round has taken {spent_s:.2f} s, limit {self._timeouts.loop_s:.2f} s"
-        return Trouble(FaultKind.LOOP_LATE, said)
 
     def _halt(self, now_s: float, present: Mapping[Wheel, float], refused: Trouble | None) -> Passed:
         """Zero at once; the modules' own ramp makes it smooth."""

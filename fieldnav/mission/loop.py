@@ -1,6 +1,6 @@
 """The loop: frame to perception to state to gate, once a tick."""
 
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Iterable, Mapping
 from contextlib import suppress
 from dataclasses import replace
 from math import inf
@@ -52,11 +52,10 @@ class Mission:
         ledger: Ledger | None = None,
         confirmations: Confirmations | None = None,
         commanding: bool = True,
-        clock: Callable[[], float] | None = None,
     ) -> None:
-        """commanding: False in a dry run, whose wheels do not do what they are told; clock: see Gate."""
+        """commanding: False in a dry run, whose wheels do not do what they are told."""
         self.wheels = wheels
-        self._gate, self.travel = Gate(wheels, robot, clock), Travel(robot)
+        self._gate, self.travel = Gate(wheels, robot), Travel(robot)
         self._eyes = Eyes(cameras, task.cameras, robot)
         self._watches = Watches(robot, task, commanding)
         self.course = Course(task, self.travel, journal, observers, ledger, confirmations)
@@ -162,7 +161,12 @@ class Mission:
         moving = self.course.moving
         self.course.books.travelled(now_s, self.course.leaf)
         motion = self._eyes.slowed(step.motion, guides) if moving else Motion()
-        passed = self._gate.pass_on(now_s, motion, moving, self._eyes.sight(now_s, guides), report)
+        try:
+            passed = self._gate.pass_on(now_s, motion, moving, self._eyes.sight(now_s, guides), report)
+        except DriverError:
+            if change is not None:
+                self.course.chronicle.tell(now_s, self.course.leaf, change, step, NOTHING_SENT, warning)
+            raise
         self._watches.sent(now_s, passed if self.wheels.ready else NOTHING_SENT)
         self.course.chronicle.held(now_s, self.course.leaf, passed)
         trouble = self._watches.progress(now_s, passed, report, self.travel.standing)

@@ -92,7 +92,7 @@ def drive(
         bus = LoggedBus(gear.bus, directory.can_log, order.robot.can.channel, append, clock)
         taped = TapedBus(bus, tape)
         stack.callback(taped.shutdown)
-        wheels = ThorvaldWheels(order.robot, taped, listening=order.dry_run)
+        wheels = ThorvaldWheels(order.robot, taped, listening=order.dry_run, clock=tape.clock(clock))
         figures = Figures(order.lanes, order.resumed.done if order.resumed else ())
         board = StatusBoard(directory.path.name, order.lanes)
         pinholes = order.robot.cameras.pinholes()
@@ -106,7 +106,6 @@ def drive(
             ledger,
             Confirmations(order.confirm),
             commanding=not order.dry_run,
-            clock=tape.clock(clock),
         )
         operating = Operating(mission, tape)
         if order.resumed is not None:

@@ -64,7 +64,7 @@ class Tape:
         def read_s() -> float:
             told_s = clock()
             if self._round is not None:
-                self._round.read_s = told_s
+                self._round.reads_s.append(told_s)
             return told_s
 
         return read_s

@@ -44,7 +44,7 @@ class TapedRound:
     lost: list[Lost] = field(default_factory=list)
     wires: list[tuple[bool, can.Message | str]] = field(default_factory=list)
     lines: list[int] = field(default_factory=list)
-    read_s: float | None = None
+    reads_s: list[float] = field(default_factory=list)
     picture: bool = False
 
     @property
@@ -67,7 +67,7 @@ class TapedRound:
             ),
             lines=tuple(self.lines),
             booking=self.booking,
-            read_s=self.read_s,
+            reads_s=tuple(self.reads_s),
         )
         content = record.model_dump_json(exclude_defaults=True).encode()
         yield Message(Topic.ROUND, self.now_s, content)

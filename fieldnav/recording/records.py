@@ -96,7 +96,7 @@ class Round(Record):
 
     number: counts the rounds of one process. by: who asked, or why. fault: of a note. latched: of a
     break-off. lines: the numbers of the lines in the journal that came of it. booking: the place at which a
-    run that was broken off is taken up. read_s: what the clock told before the wheels were commanded.
+    run that was broken off is taken up. reads_s: what the clock told, each time that it was looked at.
     """
 
     call: Call
@@ -110,7 +110,7 @@ class Round(Record):
     wires: tuple[Wire, ...] = ()
     lines: tuple[int, ...] = ()
     booking: Booking | None = None
-    read_s: float | None = None
+    reads_s: tuple[float, ...] = ()
 
 
 class Module(Record):

@@ -1,6 +1,6 @@
 """The composition root of a replay: the same mission as on a robot, on a robot of records."""
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from contextlib import suppress
 from datetime import datetime
 
@@ -59,7 +59,8 @@ class ReplayedMission:
         self._lines = Lines(begun_utc)
         self._cameras = {name: ReplayedCamera(name) for name in CameraName}
         self.bus = ReplayedBus()
-        self._read_s = 0.0
+        self._reads_s: Iterator[float] = iter(())
+        self._now_s = 0.0
         try:
             self._begin()
         except FieldnavError:
@@ -74,7 +75,7 @@ class ReplayedMission:
         for camera in self._cameras.values():
             camera.begin(taken.frames, taken.round.lost)
         self.bus.begin(taken.round.wires)
-        self._read_s = taken.round.now_s if taken.round.read_s is None else taken.round.read_s
+        self._reads_s, self._now_s = iter(taken.round.reads_s), taken.round.now_s
         try:
             with suppress(FieldnavError):  # the mission has broken off, as its last line says
                 self._do(taken.round)
@@ -102,6 +103,10 @@ class ReplayedMission:
 
     def close(self) -> None:
         self.bus.shutdown()
+
+    def _clock(self) -> float:
+        """What the run's clock told; where the run did not look at it, a round took no time."""
+        return next(self._reads_s, self._now_s)
 
     def _do(self, round: Round) -> None:
         now_s, operating = round.now_s, self._operating
@@ -134,11 +139,10 @@ class ReplayedMission:
             robot,
             task,
             self._cameras,
-            ThorvaldWheels(robot, self.bus, listening=order.dry_run, asked=self._asked),
+            ThorvaldWheels(robot, self.bus, order.dry_run, self._asked, self._clock),
             self._lines,
             self._observers,
             confirmations=Confirmations(order.asked),
             commanding=not order.dry_run,
-            clock=lambda: self._read_s,
         )
         self._operating = Operating(self.mission)
