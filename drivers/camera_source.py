@@ -9,6 +9,7 @@ from threading import Lock
 
 import cv2
 
+from drivers.motion_jpeg import Capture
 from drivers.picture_folder import PICTURES
 from fieldnav.errors import DriverError
 from fieldnav.faults import FaultKind
@@ -74,7 +75,7 @@ def brings_stamps(source: str) -> bool:
     return source.lower().startswith(STAMPED_STREAMS)
 
 
-def own_stamp_s(capture: cv2.VideoCapture) -> float:
+def own_stamp_s(capture: Capture) -> float:
     """The stamp that the frame which was read last brought with it."""
     return capture.get(cv2.CAP_PROP_POS_MSEC) / MILLISECONDS
 

@@ -25,6 +25,10 @@ class Capture(Protocol):
         """The frame that was grabbed. Raises PictureError for a damaged one; the next one may be whole."""
         ...
 
+    def get(self, property: int, /) -> float:
+        """A property of the stream, such as the stamp of the frame that was read last."""
+        ...
+
     def release(self) -> None: ...
 
 
@@ -56,6 +60,9 @@ class MotionJpeg:
 
     def retrieve(self) -> tuple[bool, Any]:
         return self._decoded(*self._capture.retrieve())
+
+    def get(self, property: int, /) -> float:
+        return self._capture.get(property)
 
     def release(self) -> None:
         self._capture.release()

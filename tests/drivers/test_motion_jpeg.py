@@ -6,6 +6,7 @@ import cv2
 import numpy as np
 import pytest
 
+from drivers.camera_source import own_stamp_s
 from drivers.motion_jpeg import MOTION_JPEG, MotionJpeg, checked
 from fieldnav.errors import PictureError
 
@@ -23,7 +24,7 @@ class Device:
         self.asked: list[tuple[int, float]] = []
 
     def get(self, name: int) -> float:
-        return float(self._fourcc) if name == cv2.CAP_PROP_FOURCC else 0.0
+        return {cv2.CAP_PROP_FOURCC: float(self._fourcc), cv2.CAP_PROP_POS_MSEC: 1250.0}.get(name, 0.0)
 
     def set(self, name: int, value: float) -> bool:
         self.asked.append((name, value))
@@ -57,6 +58,10 @@ def test_a_device_of_jpegs_is_asked_for_them_undecoded(backend: str, asked: tupl
 
     assert whole and np.array_equal(image, cv2.imdecode(JPEG, cv2.IMREAD_COLOR))
     assert device.asked == [asked]
+
+
+def test_a_stream_of_jpegs_still_tells_its_own_stamps() -> None:
+    assert own_stamp_s(checked(Device(MOTION_JPEG, "FFMPEG"))) == 1.25
 
 
 def test_a_damaged_frame_of_a_device_is_none() -> None:
