@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from drivers.simulated_motion import SimulatedMotion
-from fieldnav.errors import FieldnavError, OutputError
+from fieldnav.errors import DriverError, FieldnavError, OutputError
 from fieldnav.messages import CameraName
 from fieldnav.mission.loop import TICK_S
 from states.names import Event
@@ -50,6 +50,21 @@ def test_a_full_disk_stops_the_wheels(rig) -> None:
         rig.run(2.0)
     rig.coast(1.0)
     assert rig.fastest_mps() == 0
+
+
+def test_a_transition_in_the_round_in_which_the_bus_fails_is_told_to_those_who_watch(
+    rig, monkeypatch
+) -> None:
+    rig.proposes(Event.ROWS_LOST)
+
+    def refuse(*_: object) -> None:
+        raise DriverError("CAN bus cannot be written")
+
+    monkeypatch.setattr(rig.wheels, "command", refuse)
+    rig.run(TICK_S)
+    changes = [tick.change for tick in rig.watching if tick.change is not None]
+    assert [change.event for change in changes[-2:]] == [Event.ROWS_LOST, Event.LATCH]
+    assert rig.lines()[-2].event == Event.ROWS_LOST.value
 
 
 def test_an_observer_that_fails_is_dropped_and_the_mission_goes_on(rig) -> None:
