@@ -23,5 +23,5 @@ for ignored in (signal.SIGQUIT, signal.SIGHUP):
 def quick_robot_file(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """The robot with cameras of a quarter of the width and the height: quick to draw and to look at."""
     path = tmp_path_factory.mktemp("robot") / "quick.yaml"
-    path.write_text(json.dumps(smaller(smaller(load_robot("bonnbot"))).model_dump(mode="json")))
+    path.write_text(json.dumps(smaller(load_robot("bonnbot"), 4).model_dump(mode="json")))
     return path

@@ -48,7 +48,7 @@ class Watcher:
 
 def quick_robot() -> Robot:
     """A sixteenth of the pixels of the robot's own cameras: quicker to draw and to look at."""
-    return smaller(smaller(load_robot("bonnbot")))
+    return smaller(load_robot("bonnbot"), 4)
 
 
 def drive(

@@ -95,7 +95,7 @@ def _jobs(seed: int, kilometres: float, drawn: bool, quick: bool) -> list[Watchi
     count = 2 if quick else ceil(kilometres * METRES_PER_KILOMETRE / (LANES * length_m))
     cases = [(field, load_field(field).crop) for field in names_of(Kind.FIELD)]
     cases += [("demo", crop) for crop in names_of(Kind.CROP)]
-    robot = load_robot(ROBOT) if drawn else smaller(smaller(load_robot(ROBOT)))
+    robot = load_robot(ROBOT) if drawn else smaller(load_robot(ROBOT), 4)
     return [
         Watching(_field(name, crop, length_m, seed + number), load_crop(crop), robot, drawn)
         for number, (name, crop) in zip(range(count), cycle(cases), strict=False)

@@ -19,7 +19,7 @@ from fieldnav.settings.loading import load_crop, load_field, load_robot, revised
 def recorded(tmp_path_factory: pytest.TempPathFactory) -> RunDirectory:
     """One short lane on small pictures."""
     field = revised(load_field("demo"), {"lanes": 1, "length_m": 4})
-    robot = smaller(smaller(load_robot("bonnbot")))
+    robot = smaller(load_robot("bonnbot"), 4)
     parent = tmp_path_factory.mktemp("runs")
     return simulate(
         Run(field, load_crop(field.crop), robot, 1, Side.RIGHT, parent, sketch=True, record=True)

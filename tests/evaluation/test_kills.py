@@ -42,7 +42,7 @@ def wanted() -> SoakRun:
 
 
 def short(seed: int) -> SoakRun:
-    made = soak_run(seed, smaller(smaller(load_robot("bonnbot"))))
+    made = soak_run(seed, smaller(load_robot("bonnbot"), 4))
     field = revised(made.field, {"lanes": 2, "length_m": 5.0})
     return replace(made, field=field, kills=KILLS, mean_s=MEAN_S)
 

@@ -26,7 +26,7 @@ SHORT_M = 5.0
 
 def lane_run(expected_m: float | None = None, **changes: Any) -> LaneRun:
     field = revised(load_field("demo"), {"lanes": 1, "length_m": SHORT_M} | changes)
-    return LaneRun(field, load_crop(field.crop), smaller(smaller(ROBOT)), expected_m)
+    return LaneRun(field, load_crop(field.crop), smaller(ROBOT, 4), expected_m)
 
 
 RUN = lane_run()

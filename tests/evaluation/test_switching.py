@@ -286,7 +286,7 @@ def test_nothing_is_drawn_where_nothing_was_driven(tmp_path: Path) -> None:
 
 @pytest.mark.long  # a mission with a switch: tests/test_mission.py; switches are judged in the tests above
 def test_a_run_is_driven_judged_and_leaves_nothing_behind(tmp_path: Path) -> None:
-    run = run_of(SPARSE_SEED, lanes=2, robot=smaller(smaller(ROBOT)), folder=tmp_path).run
+    run = run_of(SPARSE_SEED, lanes=2, robot=smaller(ROBOT, 4), folder=tmp_path).run
     short = replace(run, field=revised(run.field, {"length_m": SHORTEST_M}))
 
     done = drive_switches(SwitchRun(short))

@@ -35,7 +35,7 @@ RUNS: Mapping[str, tuple[str, Mapping[str, Any]]] = {
 
 def small_robot() -> Robot:
     """bonnbot with pictures of a sixteenth of their size, half as many."""
-    small = smaller(smaller(load_robot("bonnbot")))
+    small = smaller(load_robot("bonnbot"), 4)
     cameras = small.model_dump(mode="json")["cameras"]
     for camera in cameras.values():
         camera["rate_hz"] /= 2

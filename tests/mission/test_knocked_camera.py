@@ -37,7 +37,7 @@ KNOCKING_SEED, KNOCKING_DRAW = 5, 0.917
 
 
 def quick_robot() -> Robot:
-    return smaller(smaller(load_robot("bonnbot")))
+    return smaller(load_robot("bonnbot"), 4)
 
 
 def drive(parent: Path, tilt_error_deg: float) -> tuple[RunDirectory, Summary, list[Tick]]:

@@ -14,7 +14,7 @@ from fieldnav.settings.loading import load_crop, load_field, load_robot, revised
 def drive(parent: Path, lanes: int) -> RunDirectory:
     """Lanes of 4 m of sugar beet."""
     field = revised(load_field("demo"), {"lanes": lanes, "length_m": 4})
-    robot = smaller(smaller(load_robot("bonnbot")))
+    robot = smaller(load_robot("bonnbot"), 4)
     run = Run(field, load_crop(field.crop), robot, lanes, Side.RIGHT, parent, sketch=True, record=True)
     return simulate(run).directory
 

@@ -47,7 +47,7 @@ class Drive:
     def begin(self) -> None:
         """A process drives in the run's directory, from the beginning of the field."""
         field = revised(load_field("demo"), {"lanes": 2, "length_m": 4})
-        crop, robot = load_crop(field.crop), smaller(smaller(load_robot("bonnbot")))
+        crop, robot = load_crop(field.crop), smaller(load_robot("bonnbot"), 4)
         write_settings(self.directory.settings, crop, robot, field, {"lanes": field.lanes, "side": "right"})
         self._taping = taping(self.directory, robot, BEGUN, record=True, waits=True)
         self.rig = Rig(Setting(field, crop, robot), self.directory.path, self._taping.__enter__())

@@ -92,7 +92,7 @@ def test_every_step_of_a_mission_is_explained(
     sight, profile, lanes, event = MISSIONS[name]
     checker = Checker(explained)
 
-    robot = smaller(smaller(load_robot("bonnbot")))
+    robot = smaller(load_robot("bonnbot"), 4)
     simulate(Run(sight, profile, robot, lanes, Side.RIGHT, tmp_path, sketch=True), [checker])
 
     assert checker.events[event] >= 1, checker.events

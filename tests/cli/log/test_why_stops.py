@@ -34,7 +34,7 @@ class Drive:
         """The lines of `log why`; `then` is done once the mission stands."""
         directory = RunDirectory.create(self.runs, "demo", datetime(2026, 5, 1, 8, 30, tzinfo=UTC))
         field = revised(load_field("demo"), {"lanes": LANES, "length_m": LENGTH_M})
-        robot = smaller(smaller(load_robot("bonnbot")))
+        robot = smaller(load_robot("bonnbot"), 4)
         rig = Rig(Setting(field, load_crop(field.crop), robot), directory.path)
         try:
             rig.mission.start(0.0)

@@ -72,7 +72,7 @@ def drive() -> Drive:
     whole = {"lost_frames": 0.0}  # a video has no stamps that would tell of them
     lane = {"lanes": 1, "length_m": LANE_M, "seed": CLEAR_SEED}
     field = revised(load_field("demo"), lane | {"camera_errors": whole})
-    crop, robot = load_crop(field.crop), smaller(smaller(load_robot("bonnbot")))
+    crop, robot = load_crop(field.crop), smaller(load_robot("bonnbot"), 4)
     plan = sow(field, crop, Side.RIGHT)
     wheels = ObedientWheels(module_errors(field.wheel_errors, field.seed, field.mirrored))
     world = TickingWorld(plan, field, robot, wheels)
