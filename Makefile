@@ -19,7 +19,8 @@ SHORT := $(TWO_AT_ONCE) -m "not long"
 # The share of the tests that CI runs with the lowest versions: what leans on other packages most, in a minute.
 LOWEST_SHARE := tests/settings/test_wrong_input.py tests/drivers/test_thorvald.py tests/drivers/test_can_log.py \
 	tests/recording/test_schemas.py tests/recording/test_foxglove.py tests/states/test_diagram.py \
-	tests/cli/test_detect.py tests/cli/test_simulate.py tests/replay/foreign/test_refused.py
+	tests/cli/test_detect.py tests/cli/test_simulate.py tests/replay/foreign/test_refused.py \
+	tests/drivers/test_can_log_line.py tests/replay/foreign/test_bags.py tests/cli/test_bench.py
 
 .PHONY: run test test-long test-lowest test-lowest-share test-backends test-package clean
 .DELETE_ON_ERROR:
