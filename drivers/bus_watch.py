@@ -30,8 +30,7 @@ class BusWatch:
         self._most = self._frames_per_s * BURST_S
         self._frames = self._errors = 0.0
         self._judged_s: float | None = None
-        self._taken = 0
-        self._taken_s: tuple[float, float] | None = None  # the first and the last since then, by their stamps
+        self._taken, self._first_s, self._last_s = 0, 0.0, 0.0  # frames since then, and stamps of their ends
 
     @property
     def most_at_once(self) -> int:
@@ -41,9 +40,9 @@ class BusWatch:
     def take(self, frame: can.Message) -> None:
         """Count a frame. Raises DriverError where it says that the bus is off."""
         self._frames += 1
-        self._taken += 1
-        first_s = frame.timestamp if self._taken_s is None else self._taken_s[0]
-        self._taken_s = first_s, frame.timestamp
+        if not self._taken:
+            self._first_s = frame.timestamp
+        self._taken, self._last_s = self._taken + 1, frame.timestamp
         if frame.is_error_frame:
             self._errors += 1
             if frame.arbitration_id & BUS_OFF_BIT:
@@ -54,10 +53,10 @@ class BusWatch:
         if self._judged_s is None:  # what comes first may have waited for any time
             self._frames = self._errors = 0.0
         passed_s = 0.0 if self._judged_s is None else max(0.0, now_s - self._judged_s)
-        if self._taken_s is not None:  # a process that is suspended while it reads goes on in an old round
-            passed_s = max(passed_s, self._taken_s[1] - self._taken_s[0])
+        if self._taken:  # a process that is suspended while it reads goes on in an old round
+            passed_s = max(passed_s, self._last_s - self._first_s)
         more_wait = self._taken >= self.most_at_once
-        self._judged_s, self._taken_s, self._taken = now_s, None, 0
+        self._judged_s, self._taken = now_s, 0
         self._frames -= passed_s * self._frames_per_s
         if not more_wait:
             self._frames = max(0.0, self._frames)

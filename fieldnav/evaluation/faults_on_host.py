@@ -8,7 +8,6 @@ from fieldnav.evaluation.faults_injection import Injection, broken
 from fieldnav.evaluation.faults_mistake import Mistaken
 from fieldnav.evaluation.faults_rig import Rig
 from fieldnav.faults import FaultKind
-from fieldnav.mission.loop import TICK_S
 
 FLOOD, ERRORS = 100, 4
 """Frames in each round of 20 ms: 5000 and 200 a second."""
@@ -92,8 +91,6 @@ def _suspend(rig: Rig) -> None:
 
 def _suspend_within(rig: Rig) -> None:
     rig.stalled_s = SUSPENDED_S
-    begun_s = rig.now_s + TICK_S  # of the next round, in whose middle the process stays
-    rig.absent.append((begun_s + TICK_S / 2, begun_s + SUSPENDED_S))
 
 
 def _fill_disk(rig: Rig) -> None:

@@ -131,7 +131,9 @@ class Rig:
         if not (self.killed or any(from_s < self.now_s < to_s for from_s, to_s in self.absent)):
             self.guided_by = self.guides
             self.guarded(self._mission_round)
-            self.stalled_s = 0.0
+            if self.stalled_s:
+                self.absent.append((self.now_s, self.now_s + self.stalled_s))
+                self.stalled_s = 0.0
         for look in self.after:
             look()
 

@@ -3,6 +3,7 @@
 from collections.abc import Iterable, Iterator, Sequence
 from contextlib import suppress
 from datetime import datetime
+from itertools import chain, repeat
 
 from drivers.module_link import ASKED, Missing
 from drivers.thorvald import ThorvaldWheels
@@ -60,7 +61,6 @@ class ReplayedMission:
         self._cameras = {name: ReplayedCamera(name) for name in CameraName}
         self.bus = ReplayedBus()
         self._reads_s: Iterator[float] = iter(())
-        self._now_s = 0.0
         try:
             self._begin()
         except FieldnavError:
@@ -75,7 +75,8 @@ class ReplayedMission:
         for camera in self._cameras.values():
             camera.begin(taken.frames, taken.round.lost)
         self.bus.begin(taken.round.wires)
-        self._reads_s, self._now_s = iter(taken.round.reads_s), taken.round.now_s
+        # Where the run did not look at its clock, a round took no time.
+        self._reads_s = chain(taken.round.reads_s, repeat(taken.round.now_s))
         try:
             with suppress(FieldnavError):  # the mission has broken off, as its last line says
                 self._do(taken.round)
@@ -104,10 +105,6 @@ class ReplayedMission:
     def close(self) -> None:
         self.bus.shutdown()
 
-    def _clock(self) -> float:
-        """What the run's clock told; where the run did not look at it, a round took no time."""
-        return next(self._reads_s, self._now_s)
-
     def _do(self, round: Round) -> None:
         now_s, operating = round.now_s, self._operating
         match round.call:
@@ -135,11 +132,18 @@ class ReplayedMission:
         crop, robot, order = self._settings.crop, self._settings.robot, self._order
         pinholes = robot.cameras.pinholes()
         task = Task(crop, pinholes, order.side, order.lanes)
+        wheels = ThorvaldWheels(
+            robot,
+            self.bus,
+            listening=order.dry_run,
+            asked=self._asked,
+            clock=lambda: next(self._reads_s),
+        )
         self.mission = Mission(
             robot,
             task,
             self._cameras,
-            ThorvaldWheels(robot, self.bus, order.dry_run, self._asked, self._clock),
+            wheels,
             self._lines,
             self._observers,
             confirmations=Confirmations(order.asked),

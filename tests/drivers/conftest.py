@@ -1,4 +1,4 @@
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -84,9 +84,21 @@ def full_disk() -> Path:
 
 
 @pytest.fixture
-def bench(robot: Robot) -> Iterator[Bench]:
-    host, far = open_virtual_pair()
-    tap = can.interfaces.virtual.VirtualBus(host.channel_id, preserve_timestamps=True)  # type: ignore[attr-defined]
-    yield Bench(robot, ThorvaldWheels(robot, host), SimulatedModules(robot, far), tap, far)
-    for bus in (host, far, tap):
+def bench_by(robot: Robot) -> Iterator[Callable[[Callable[[], float] | None], Bench]]:
+    """Makes a bench whose driver goes by a clock, or by none."""
+    buses: list[can.BusABC] = []
+
+    def make(clock: Callable[[], float] | None) -> Bench:
+        host, far = open_virtual_pair()
+        tap = can.interfaces.virtual.VirtualBus(host.channel_id, preserve_timestamps=True)  # type: ignore[attr-defined]
+        buses.extend((host, far, tap))
+        return Bench(robot, ThorvaldWheels(robot, host, clock=clock), SimulatedModules(robot, far), tap, far)
+
+    yield make
+    for bus in buses:
         bus.shutdown()
+
+
+@pytest.fixture
+def bench(bench_by: Callable[[Callable[[], float] | None], Bench]) -> Bench:
+    return bench_by(None)

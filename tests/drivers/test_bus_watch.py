@@ -34,15 +34,16 @@ def listen(
         watch.judge(from_s + tick * TICK_S)
 
 
-def catch_up(watch: BusWatch, waiting: int, from_s: float) -> None:
-    """Rounds of the loop in which frames are read that have waited."""
-    tick = 0
+def catch_up(watch: BusWatch, waiting: int, from_s: float) -> float:
+    """Rounds of the loop in which frames are read that have waited; the time of the last."""
+    now_s = from_s - TICK_S
     while waiting > 0:
+        now_s += TICK_S
         for _ in range(min(waiting, watch.most_at_once)):
             watch.take(FRAME)
         waiting -= watch.most_at_once
-        watch.judge(from_s + tick * TICK_S)
-        tick += 1
+        watch.judge(now_s)
+    return now_s
 
 
 def stamped(stamp_s: float) -> can.Message:
@@ -68,8 +69,17 @@ def test_a_bus_that_is_not_full_is_never_a_flood(share: float) -> None:
 def test_what_waited_while_nobody_listened_is_no_flood() -> None:
     watch = BusWatch(BUS)
     listen(watch, 1.0, OWN_PER_S)
-    catch_up(watch, round(5.0 * OWN_PER_S), from_s=6.0)
-    listen(watch, 1.0, OWN_PER_S, from_s=7.0)
+    for _ in range(round(5.0 * OWN_PER_S)):
+        watch.take(FRAME)
+    watch.judge(6.0)
+    listen(watch, 1.0, OWN_PER_S, from_s=6.0)
+
+
+def test_what_waited_while_nobody_listened_and_is_read_round_by_round_is_no_flood() -> None:
+    watch = BusWatch(BUS)
+    listen(watch, 1.0, OWN_PER_S)
+    caught_up_s = catch_up(watch, round(5.0 * OWN_PER_S), from_s=6.0)
+    listen(watch, 1.0, OWN_PER_S, from_s=caught_up_s)
 
 
 def test_what_waited_for_a_process_that_was_suspended_while_it_read_is_no_flood() -> None:
@@ -79,16 +89,16 @@ def test_what_waited_for_a_process_that_was_suspended_while_it_read_is_no_flood(
     for _ in range(watch.most_at_once - 1):
         watch.take(stamped(6.0))
     watch.judge(1.02)
-    catch_up(watch, round(5.0 * OWN_PER_S) - watch.most_at_once, from_s=6.0)
-    listen(watch, 1.0, OWN_PER_S, from_s=7.0)
+    caught_up_s = catch_up(watch, round(5.0 * OWN_PER_S) - watch.most_at_once, from_s=6.0)
+    listen(watch, 1.0, OWN_PER_S, from_s=caught_up_s)
 
 
 def test_a_flood_after_a_pause_is_noticed_once_nothing_waits_any_more() -> None:
     watch = BusWatch(BUS)
     listen(watch, 1.0, OWN_PER_S)
-    catch_up(watch, round(60.0 * OWN_PER_S), from_s=61.0)
+    caught_up_s = catch_up(watch, round(60.0 * OWN_PER_S), from_s=61.0)
     with pytest.raises(DriverError) as caught:
-        listen(watch, 1.0, 0.9 * WIRE_PER_S, from_s=62.0)
+        listen(watch, 1.0, 0.9 * WIRE_PER_S, from_s=caught_up_s)
     assert caught.value.fault is FaultKind.BUS_FLOODED
 
 

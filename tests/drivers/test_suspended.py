@@ -1,23 +1,17 @@
 """A process that was suspended in the middle of a round, or of its commands, moves nothing afterwards."""
 
-from collections.abc import Iterator
 from dataclasses import dataclass
 from math import inf, nan
+from typing import Any
 
-import can
 import pytest
 
-from drivers.can_log import open_virtual_pair
-from drivers.simulated_modules import SimulatedModules
-from drivers.thorvald import ThorvaldWheels
 from drivers.thorvald_protocol import Kind
 from drivers.wire_layout import wire_layout
 from fieldnav.errors import DriverError
 from fieldnav.faults import FaultKind
 from fieldnav.messages import Wheel, WheelSetpoint
-from fieldnav.settings.robot import Robot
 
-TICK_S = 0.02
 FORWARD, STANDING = (
     dict.fromkeys(Wheel, WheelSetpoint(0.5, 0.0)),
     dict.fromkeys(Wheel, WheelSetpoint(0.0, 0.0)),
@@ -40,48 +34,29 @@ class Clock:
 
 @dataclass
 class Suspended:
-    """A driver whose process is suspended, and simulated modules at the far end of its bus."""
+    """A bench whose process is suspended while it commands the wheels."""
 
-    wheels: ThorvaldWheels
-    modules: SimulatedModules
-    far: can.BusABC
+    bench: Any
     clock: Clock
-
-    def round(self) -> None:
-        self.clock.now_s = round(self.clock.now_s + TICK_S, 6)
-        self.modules.step(self.clock.now_s)
-        self.wheels.poll(self.clock.now_s)
 
     def command(self, setpoints: dict[Wheel, WheelSetpoint], after_looks: int, for_s: float) -> None:
         """Command the wheels; the process is suspended when the clock was looked at so many times."""
-        self.clock.looks, self.clock.jump_s = after_looks, for_s
-        self.wheels.command(self.clock.now_s, setpoints)
+        self.clock.now_s, self.clock.looks, self.clock.jump_s = self.bench.now_s, after_looks, for_s
+        self.bench.wheels.command(self.bench.now_s, setpoints)
 
     def moving_frames(self) -> int:
-        """Drive set-points other than zero that the modules have not yet taken in."""
-        told = 0
-        while (frame := self.far.recv(timeout=0)) is not None:
-            telegram = wire_layout().read(frame)
-            told += (
-                telegram is not None and telegram.kind is Kind.DRIVE and telegram.values["DriveSpeed"] != 0
-            )
-        return told
+        """Drive set-points other than zero on the bus so far."""
+        telegrams = map(wire_layout().read, self.bench.frames())
+        drives = [each for each in telegrams if each is not None and each.kind is Kind.DRIVE]
+        return sum(each.values["DriveSpeed"] != 0 for each in drives)
 
 
 @pytest.fixture
-def suspended(robot: Robot) -> Iterator[Suspended]:
-    host, far = open_virtual_pair()
+def suspended(bench_by: Any) -> Suspended:
     clock = Clock()
-    wheels = ThorvaldWheels(robot, host, clock=clock)
-    rig = Suspended(wheels, SimulatedModules(robot, far), far, clock)
-    wheels.start(0.0)
-    for _ in range(5):
-        rig.round()
-    assert wheels.ready
-    rig.round()
-    yield rig
-    for bus in (host, far):
-        bus.shutdown()
+    bench = bench_by(clock)
+    bench.start()
+    return Suspended(bench, clock)
 
 
 @pytest.mark.parametrize("looks", range(FRAMES))
@@ -111,6 +86,6 @@ def test_a_round_that_is_not_too_long_moves_all_four(suspended: Suspended) -> No
 
 def test_zero_is_sent_however_late_it_is(suspended: Suspended) -> None:
     suspended.command(STANDING, 0, 5.0)
-    suspended.wheels.stop(suspended.clock.now_s)
+    suspended.bench.wheels.stop(suspended.bench.now_s)
 
     assert suspended.moving_frames() == 0
