@@ -18,7 +18,7 @@ DataOption = Annotated[
     typer.Option(
         envvar="FIELDNAV_DATA",
         metavar="DIR",
-        help="Folder with the photographs: near_nadir_jw/ and crbd/, either or both.",
+        help="Folder with the photographs, in any of near_nadir_jw/, crbd/, crdld/, no_rows/, row_faults/.",
     ),
 ]
 ThreadsOption = Annotated[
@@ -92,7 +92,7 @@ def _folder(data: Path | None) -> Path | None:
     """The folder of photographs, None where none is named. Raises SettingsError where it does not exist."""
     if data is not None and not data.is_dir():
         raise SettingsError(
-            f"--data {data}: there is no such folder; allowed is one that holds near_nadir_jw or crbd "
-            "(the option's default is the environment variable FIELDNAV_DATA)"
+            f"--data {data}: there is no such folder; allowed is one that holds any of near_nadir_jw, crbd, "
+            "crdld, no_rows and row_faults (the option's default is the environment variable FIELDNAV_DATA)"
         )
     return data

@@ -34,7 +34,7 @@ class _Region:
 
 REGIONS = (
     _Region("CRDA, lower half", LOWER_HALF_PX, goal=0.92, published=0.821),
-    _Region("CRDA, whole image", 0, goal=0.80, published=0.746),
+    _Region("CRDA, whole image", 0, goal=0.82, published=0.746),
 )
 PUBLISHED = "template matching, published, all 281 images"
 CHECK = "the set's authors' detections"

@@ -4,7 +4,9 @@ from fieldnav.evaluation.benchmark import Plan, Progress, Report
 from fieldnav.evaluation.found_rows import FoundRows
 from fieldnav.evaluation.photographed_rows import photographed_rows
 from fieldnav.evaluation.rendered_rows import rendered_rows
+from fieldnav.evaluation.row_faults import row_faults
 from fieldnav.evaluation.rowless import rowless
+from fieldnav.evaluation.rowless_photographs import rowless_photographs
 from fieldnav.evaluation.sideways import sideways
 from fieldnav.messages import Image
 from fieldnav.perception.unposed import find_unposed
@@ -13,15 +15,15 @@ from fieldnav.settings.crop import CropProfile
 
 def detection(plan: Plan, progress: Progress) -> Report:
     """Every figure of detection. Raises SettingsError, OutputError."""
-    photographed = photographed_rows(plan, progress, unposed_rows)
-    passing = sideways(plan, progress)
-    figures = (
-        *photographed.figures,
-        *passing.figures,
-        *rendered_rows(plan, progress),
-        *rowless(plan, progress),
-    )
-    return Report(figures, (*photographed.left_out, *passing.left_out))
+    of_photographs = [
+        photographed_rows(plan, progress, unposed_rows),
+        rowless_photographs(plan, progress, unposed_rows),
+        row_faults(plan, progress, unposed_rows),
+        sideways(plan, progress),
+    ]
+    figures = [figure for report in of_photographs for figure in report.figures]
+    left_out = [part for report in of_photographs for part in report.left_out]
+    return Report((*figures, *rendered_rows(plan, progress), *rowless(plan, progress)), tuple(left_out))
 
 
 def unposed_rows(image: Image, crop: CropProfile | None) -> FoundRows:

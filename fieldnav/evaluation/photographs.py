@@ -30,6 +30,9 @@ class PhotographSet(Enum):
 
     NEAR_NADIR = "near_nadir_jw"
     CRBD = "crbd"
+    LINCOLN = "crdld"
+    NO_ROWS = "no_rows"
+    ROW_FAULTS = "row_faults"
 
     @property
     def title(self) -> str:
@@ -37,8 +40,8 @@ class PhotographSet(Enum):
 
     @property
     def truth(self) -> str:
-        """What holds the true rows, within the set's folder."""
-        return TRUTHS[self]
+        """What holds the true rows, within the set's folder; empty for a set that needs no such file."""
+        return TRUTHS.get(self, "")
 
     def folder(self, plan: Plan, part: str | None = None) -> Path | None:
         """Where this set lies; None where it is absent or lacks a part, if none is named its ground truth.
@@ -49,7 +52,7 @@ class PhotographSet(Enum):
             return None
         folder = plan.data / self.value
         try:
-            os.stat(folder / (part or self.truth))
+            os.stat(os.path.join(folder, part or self.truth))  # ends in / without a part: no file will do
         except (FileNotFoundError, NotADirectoryError):
             return None
         except OSError as error:
@@ -69,8 +72,15 @@ class PhotographSet(Enum):
 TITLES = {
     PhotographSet.NEAR_NADIR: "photographs near the robot's view",
     PhotographSet.CRBD: "Crop Row Benchmark Dataset",
+    PhotographSet.LINCOLN: "Crop Row Detection Lincoln Dataset",
+    PhotographSet.NO_ROWS: "photographs without a row",
+    PhotographSet.ROW_FAULTS: "pictures in which rows were found wrongly",
 }
-TRUTHS = {PhotographSet.NEAR_NADIR: "rows.json", PhotographSet.CRBD: "gt"}
+TRUTHS = {
+    PhotographSet.NEAR_NADIR: "rows.json",
+    PhotographSet.CRBD: "gt",
+    PhotographSet.LINCOLN: "rows.json",
+}
 """What holds the true rows, within a set's folder."""
 
 

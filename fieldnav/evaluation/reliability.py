@@ -85,11 +85,15 @@ def calibration_error(rows: JudgedRows) -> float:
     return sum(each.count * abs(each.share - each.confidence) for each in bins(rows)) / len(rows)
 
 
-def reliability(rows: JudgedRows) -> list[Figure]:
-    """The share right of each bin, its standard error as the deviation, and the calibration error."""
+def reliability(rows: JudgedRows, photographs: str | None = None) -> list[Figure]:
+    """The share right of each bin, its standard error as the deviation, and the calibration error.
+
+    photographs: the set that all rows are of, None for those of every set.
+    """
+    case = CASE if photographs is None else f"{CASE}: {photographs}"
     shares = [
         Figure(
-            CASE,
+            case,
             f"share right of rows given {each.low:.1f} to {each.high:.1f}",
             each.share,
             each.standard_error,
@@ -97,4 +101,4 @@ def reliability(rows: JudgedRows) -> list[Figure]:
         for each in bins(rows)
     ]
     error = calibration_error(rows)
-    return [*shares, Figure(CASE, "expected calibration error", error, better=Better.LOWER)]
+    return [*shares, Figure(case, "expected calibration error", error, better=Better.LOWER)]

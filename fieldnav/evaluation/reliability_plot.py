@@ -13,7 +13,7 @@ from fieldnav.journal.files import whole_file
 
 PICTURE = "reliability.png"
 INK, PAPER, GRID, SHARE, IDEAL = "#2b2b2b", "#fbfaf7", "#dddad2", "#1f6fb4", "#8c8c8c"
-SET_COLOURS = ("#2d8a3e", "#e69200")
+SET_COLOURS = ("#2d8a3e", "#e69200", "#7b5ea7")
 SIZE_INCH, DOTS_PER_INCH = (7.0, 7.6), 130
 SHAPE = (3.2, 1.0)
 """Heights of the two graphs, one to the other."""

@@ -49,6 +49,16 @@ def crbd_set(data: Path, count: int = 1, spacing_px: float = 40.0, authors: bool
     return folder
 
 
+def lincoln_set(data: Path, rows: Sequence[Sequence] = (), count: int = 1) -> Path:
+    """So many pictures of the Lincoln set's size, each with the same annotated rows."""
+    folder, truth = data / "crdld", {"_meta": {"size": [512, 512]}}
+    for number in range(count):
+        truth[f"{number}.jpg"] = [[list(point) for point in row] for row in rows]
+        write_picture(folder / "images" / f"{number}.jpg", (512, 512))
+    write_text(folder / "rows.json", json.dumps(truth))
+    return folder
+
+
 def write_text(path: Path, text: str) -> None:
     path.parent.mkdir(parents=True, exist_ok=True)
     path.write_text(text, encoding="utf-8")
@@ -78,6 +88,7 @@ def photos() -> SimpleNamespace:
     return SimpleNamespace(
         near_nadir=near_nadir_set,
         crbd=crbd_set,
+        lincoln=lincoln_set,
         picture=write_picture,
         found=found,
         finder=finder,

@@ -102,12 +102,15 @@ def test_a_lattice_of_rows_beyond_number_is_refused(
         pictures_in(folder)
 
 
-@pytest.mark.parametrize(("part", "folder"), [("rows.json", "near_nadir_jw"), ("gt", "crbd")])
-def test_a_set_without_its_ground_truth_is_left_out_and_the_other_measured(
+@pytest.mark.parametrize(
+    ("part", "folder"), [("rows.json", "near_nadir_jw"), ("gt", "crbd"), ("rows.json", "crdld")]
+)
+def test_a_set_without_its_ground_truth_is_left_out_and_the_others_measured(
     part: str, folder: str, tmp_path: Path, photos: SimpleNamespace
 ) -> None:
     photos.near_nadir(tmp_path)
     photos.crbd(tmp_path)
+    photos.lincoln(tmp_path)
     (tmp_path / folder / part).rename(tmp_path / "away")
 
     report = photographed_rows(Plan(tmp_path, quick=False), NO_BAR, photos.finder(photos.rows))
@@ -116,9 +119,10 @@ def test_a_set_without_its_ground_truth_is_left_out_and_the_other_measured(
     assert report.figures
 
 
-def test_a_file_in_place_of_a_set_is_no_set(tmp_path: Path) -> None:
-    (tmp_path / "crbd").touch()
+@pytest.mark.parametrize("photographs", PhotographSet)
+def test_a_file_in_place_of_a_set_is_no_set(photographs: PhotographSet, tmp_path: Path) -> None:
+    (tmp_path / photographs.value).touch()
     plan = Plan(tmp_path, quick=False)
 
-    assert PhotographSet.CRBD.folder(plan) is None
-    assert PhotographSet.CRBD.absence(plan).reason == f"there is no folder {tmp_path}/crbd"
+    assert photographs.folder(plan) is None
+    assert photographs.absence(plan).reason == f"there is no folder {tmp_path / photographs.value}"

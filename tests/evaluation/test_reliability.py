@@ -7,8 +7,9 @@ import numpy as np
 import pytest
 
 from fieldnav.errors import OutputError
+from fieldnav.evaluation.photographs import PhotographSet
 from fieldnav.evaluation.reliability import JudgedRows, bins, calibration_error, counts_by_bin, reliability
-from fieldnav.evaluation.reliability_plot import draw_reliability
+from fieldnav.evaluation.reliability_plot import SET_COLOURS, draw_reliability
 
 
 def rows(*groups: tuple[float, int, int]) -> JudgedRows:
@@ -64,6 +65,18 @@ def test_every_bin_and_the_calibration_error_are_figures() -> None:
     ]
     assert figures[-1].metric == "expected calibration error"
     assert figures[-1].value == pytest.approx((4 * 0.1 + 2 * 0.25) / 6)
+
+
+def test_the_figures_of_one_set_name_it() -> None:
+    assert {
+        figure.case for figure in reliability(rows((0.85, 4, 3)), "photographs near the robot's view")
+    } == {"reliability of confidence: photographs near the robot's view"}
+
+
+def test_every_set_of_photographs_with_rows_has_a_colour_of_its_own() -> None:
+    with_truth = [photographs for photographs in PhotographSet if photographs.truth]
+
+    assert len(set(SET_COLOURS)) == len(SET_COLOURS) == len(with_truth)
 
 
 def test_the_picture_is_drawn(tmp_path: Path) -> None:
