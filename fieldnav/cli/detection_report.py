@@ -14,6 +14,8 @@ from fieldnav.messages import Floats
 PIXEL_DIGITS, ANGLE_DIGITS, SCORE_DIGITS, MILLISECOND_DIGITS = 1, 2, 3, 1
 TILT_DIGITS, HEIGHT_DIGITS = 1, 2
 """Decimals that are printed; more would be noise."""
+NO_FIELD = 0.1
+"""Probability of a field below which there is none in view: of photographs of fields 2 in 100 get less."""
 CURVE_POINTS = 9
 """Of a row, from the upper edge to the lower: a bend between two of them is less than a pixel."""
 
@@ -35,6 +37,7 @@ def document(found: Detection) -> dict[str, Any]:
             for row, path in zip(found.view.lines, found.view.paths_px, strict=True)
         ],
         "camera": _camera(found),
+        "field": None if found.view.field is None else round(found.view.field, SCORE_DIGITS),
         "milliseconds": round(found.milliseconds, MILLISECOND_DIGITS),
     }
 
@@ -56,6 +59,8 @@ def print_table(found: Detection) -> None:
     size = f"{found.width_px}x{found.height_px}"
     print_line(f"{found.path}: {counted(found)}, {size}, {found.milliseconds:.{MILLISECOND_DIGITS}f} ms")
     print_line(camera_line(found))
+    if found.view.field is not None:
+        print_line(field_line(found.view.field))
     if found.known.robot and found.known.crop:
         print_line(f"looked for rows of {found.known.crop.name}, {found.known.crop.rows.spacing_m:g} m apart")
     if rows:
@@ -78,6 +83,13 @@ def counted(found: Detection) -> str:
     lines, plants = len(found.view.lines), len(found.view.centres)
     rows = "no row" if not lines else f"{lines} row{'s' if lines > 1 else ''}"
     return rows if found.camera is None else f"{rows}, {plants} plant{'' if plants == 1 else 's'}"
+
+
+def field_line(field: float) -> str:
+    """Whether the picture shows a field of rows at all."""
+    if field < NO_FIELD:
+        return f"no field in view: that it shows one is {field:.0%} likely"
+    return f"a field of rows in view: {field:.0%} likely"
 
 
 def camera_line(found: Detection) -> str:

@@ -1,6 +1,7 @@
 """The benchmark of detection: rows of real photographs, of the paper's protocol, and where there are none."""
 
 from fieldnav.evaluation.benchmark import Plan, Progress, Report
+from fieldnav.evaluation.cross_set import cross_set
 from fieldnav.evaluation.found_rows import FoundRows
 from fieldnav.evaluation.photographed_rows import photographed_rows
 from fieldnav.evaluation.rendered_rows import rendered_rows
@@ -19,6 +20,7 @@ def detection(plan: Plan, progress: Progress) -> Report:
         photographed_rows(plan, progress, unposed_rows),
         rowless_photographs(plan, progress, unposed_rows),
         row_faults(plan, progress, unposed_rows),
+        cross_set(plan, progress),
         sideways(plan, progress),
     ]
     figures = [figure for report in of_photographs for figure in report.figures]

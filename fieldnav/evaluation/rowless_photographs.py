@@ -42,7 +42,7 @@ def rowless_photographs(plan: Plan, progress: Progress, find: Finder) -> Report:
     left_out: list[LeftOut] = []
     for kind, shown in KINDS.items():
         folder = photographs.folder(plan, kind)
-        pictures = [] if folder is None else sorted(_pictures_under(folder / kind))
+        pictures = [] if folder is None else sorted(pictures_under(folder / kind))
         if folder is None:
             left_out.append(photographs.absence(plan, kind))
         elif not pictures:
@@ -53,7 +53,7 @@ def rowless_photographs(plan: Plan, progress: Progress, find: Finder) -> Report:
     return Report(tuple(figures), tuple(left_out))
 
 
-def _pictures_under(folder: Path) -> Iterator[Path]:
+def pictures_under(folder: Path) -> Iterator[Path]:
     """Every file that is a picture by its name; a hidden one, as memory cards hold, is none."""
     for path in folder.rglob("*"):
         if path.suffix.lower() in PICTURES and not path.name.startswith(".") and path.is_file():
@@ -71,7 +71,9 @@ def _figures(
         wrong[UNKNOWN] += bool(find(image, None).sure().lines)
         large = as_large(camera, image)
         wrong[KNOWN] += reports_row(find_with_camera(image, crop, large))
-        wrong[POSE_UNKNOWN] += reports_row(find_with_camera(image, crop, large, pose_known=False))
+        wrong[POSE_UNKNOWN] += reports_row(
+            find_with_camera(image, crop, large, pose_known=False, both_witnesses=True)
+        )
     source = "" if best_known is None else NETWORK
     return [
         Figure(

@@ -3,6 +3,8 @@
 from dataclasses import dataclass
 
 from fieldnav.messages import Centres, Floats, Image, RowLine
+from fieldnav.perception.canopy import canopy_plane
+from fieldnav.perception.comb.search_range import range_of
 from fieldnav.perception.finders import find_rows
 from fieldnav.perception.found import Found
 from fieldnav.perception.ground_plants import on_ground
@@ -10,8 +12,9 @@ from fieldnav.perception.lane import LaneFit, lane_rows
 from fieldnav.perception.plants import plants_in
 from fieldnav.perception.settle import settle
 from fieldnav.perception.vegetation import Cover, vegetation_of
+from fieldnav.perception.witnessed import find_witnessed
 from fieldnav.pinhole import Pinhole
-from fieldnav.settings.crop import CropProfile
+from fieldnav.settings.crop import CropProfile, RowFinder
 
 
 @dataclass(frozen=True, slots=True)
@@ -19,8 +22,9 @@ class View:
     """What one frame shows.
 
     cover and centres: its vegetation and the plants; lines: every row it shows, left to right; paths_px: the
-    same rows as curves, shape (rows, points, 2), x and y from the upper edge to the lower; lane: the rows
-    under the robot, None when there are none.
+    same rows as curves, shape (rows, points, 2), x and y from the upper edge to the lower;
+    lane: the rows under the robot, None when there are none; field: the probability that the picture shows a
+    field of rows at all, None where nobody asked (a frame of a camera whose pose is known).
     """
 
     cover: Cover
@@ -28,6 +32,7 @@ class View:
     lines: tuple[RowLine, ...]
     paths_px: Floats
     lane: LaneFit | None
+    field: float | None = None
 
 
 def find(
@@ -36,17 +41,26 @@ def find(
     camera: Pinhole,
     widest_offset_m: float | None = None,
     pose_known: bool = True,
+    both_witnesses: bool = False,
 ) -> View:
     """Find the rows of a frame without knowing any before; see `lane_rows` for `widest_offset_m`.
 
-    pose_known: whether the camera's pose is known but for calibration and shaking.
+    pose_known: whether the camera's pose is known but for calibration and shaking; both_witnesses: for a
+    picture that may show no field at all, where rows must be borne out by the network too (`witnessed`), and
+    there is no lane without any.
     """
     cover = vegetation_of(image, crop.vegetation)
     centres = plants_in(cover, crop.vegetation, camera)
-    found = find_rows(cover, centres, crop, camera, pose_known)
-    lane = _lane(found, centres, crop, camera, widest_offset_m)
+    field = None
+    if not both_witnesses or crop.finding.method is not RowFinder.COMB:
+        found = find_rows(cover, centres, crop, camera, pose_known)
+    else:
+        tried = range_of(canopy_plane(camera, crop), crop.rows.spacing_m, pose_known)
+        witnessed = find_witnessed(image, cover, crop.vegetation, tried)
+        found, field = witnessed.found, witnessed.field
     sure = found.sure()
-    return View(cover, centres, sure.lines, sure.paths_px, lane)
+    lane = _lane(found, centres, crop, camera, widest_offset_m) if not both_witnesses or sure.lines else None
+    return View(cover, centres, sure.lines, sure.paths_px, lane, field)
 
 
 def lane_of(

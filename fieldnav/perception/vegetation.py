@@ -80,7 +80,7 @@ def vegetation_of(image: Image, vegetation: Vegetation) -> Cover:
     image: shape (h, w, 3), uint8, blue green red. One that is none (one channel, tiny, not finite) has
     nothing growing in it.
     """
-    colour = _as_colour(image)
+    colour = as_colour(image)
     if colour is None:
         height, width = (*image.shape, 0, 0)[:2]
         return Cover(np.zeros((1, 1), np.uint8), FULL_SCALE, FULL_SCALE, width, height)
@@ -94,7 +94,7 @@ def vegetation_of(image: Image, vegetation: Vegetation) -> Cover:
     return Cover(index, max(otsu, floor, 1.0), floor, width, height)
 
 
-def _as_colour(image: Image) -> Image | None:
+def as_colour(image: Image) -> Image | None:
     """The image as three channels of uint8; None when it cannot be one."""
     if image.ndim != COLOURS or image.shape[2] < COLOURS or min(image.shape[:2]) < SMALLEST_SIDE_PX:
         return None

@@ -56,7 +56,7 @@ def test_one_object_a_line_in_the_order_given(
     found = objects()
     assert [each["image"] for each in found] == [str(bare), str(picture), str(bare)]
     assert found[0]["rows"] == found[2]["rows"] == []
-    assert set(found[1]) == {"image", "width", "height", "rows", "camera", "milliseconds"}
+    assert set(found[1]) == {"image", "width", "height", "rows", "camera", "field", "milliseconds"}
     rows, told = found[1]["rows"], found[1]["camera"]
     assert isinstance(rows, list) and isinstance(told, dict)
     assert set(rows[0]) == {"x_top", "x_bottom", "angle_deg", "score", "points"}

@@ -31,16 +31,19 @@ _BAND = np.arange(BAND_COUNT)[:, None]
 
 @dataclass(frozen=True)
 class Bands:
-    """strength: shape (bands, COLUMNS), float32, how much vegetation, 0 to 1, from the upper band down."""
+    """strength: shape (bands, COLUMNS), float32, how much vegetation, 0 to 1, from the upper band down;
+    evenness: how far near and far bands are made alike, 0 for not at all.
+    """
 
     strength: NDArray[np.float32]
+    evenness: float = EVENNESS
 
     @cached_property
     def even(self) -> NDArray[np.float32]:
         """The bands about their own means, near and far ones made alike; shape (bands, COLUMNS)."""
         mean = self.strength.mean(axis=1, keepdims=True)
         scale = mean + LEAST_SHARE * mean.mean() + np.finfo(np.float32).tiny
-        return np.asarray((self.strength - mean) / scale**EVENNESS, np.float32)
+        return np.asarray((self.strength - mean) / scale**self.evenness, np.float32)
 
     @cached_property
     def spectrum(self) -> Complexes:

@@ -26,14 +26,14 @@ OBLIQUE = 0.8  # convergence from which on a view is one that looks ahead
 def find_comb(cover: Cover, tried: SearchRange) -> tuple[RowComb, Bands] | None:
     """The comb that fits the vegetation best among those tried; None where nothing grows."""
     bands = bands_of(cover.strength)
-    combs = [_refined(comb, bands) for comb in candidates(bands, tried)[: tried.refined]]
+    combs = [refined(comb, bands) for comb in candidates(bands, tried)[: tried.refined]]
     return (max(combs, key=lambda comb: comb.response(bands)), bands) if combs else None
 
 
 def rows_in(comb: RowComb, bands: Bands, cover: Cover) -> Found:
     """Every row of a comb, whether plants bear it out or not: its confidence tells."""
     rows = rows_of(comb, bands, STEEP_SCATTER if convergence_of(comb) < OBLIQUE else OBLIQUE_SCATTER)
-    curves = _curves_px(rows, cover)
+    curves = curves_px(rows, cover)
     confidence = confidence_of(rows, comb, bands)
     lines = tuple(
         RowLine(float(top), float(bottom), float(sure))
@@ -48,7 +48,7 @@ def convergence_of(comb: RowComb) -> float:
     return float(slope / middle)
 
 
-def _refined(comb: RowComb, bands: Bands) -> RowComb:
+def refined(comb: RowComb, bands: Bands) -> RowComb:
     """The comb fitted with the freedom that its view has, which may turn out another than it seemed."""
     if convergence_of(comb) >= OBLIQUE:
         for stiffness in OBLIQUE_VIEW:
@@ -56,17 +56,19 @@ def _refined(comb: RowComb, bands: Bands) -> RowComb:
     return comb if convergence_of(comb) >= OBLIQUE else refine(comb, bands, STEEP_VIEW)
 
 
-def _curves_px(rows: CombRows, cover: Cover) -> Floats:
+def curves_px(rows: CombRows, cover: Cover) -> Floats:
     """Curves through the bands' middles, carried on straight to the picture's edges."""
-    level = np.concatenate([[-1 / 2], LEVEL, [1 / 2]])
     place = rows.place
     upper = 1.5 * place[:, :1] - place[:, 1:2] / 2
     lower = 1.5 * place[:, -1:] - place[:, -2:-1] / 2
     x = np.concatenate([upper, place, lower], axis=1) * cover.width_px + (cover.width_px - 1) / 2
-    y = np.broadcast_to(
-        (level * cover.height_px + (cover.height_px - 1) / 2).clip(0, cover.height_px - 1), x.shape
-    )
-    return np.stack([x, y], axis=-1)
+    return np.stack([x, np.broadcast_to(curve_rows_px(cover.height_px), x.shape)], axis=-1)
+
+
+def curve_rows_px(height_px: int) -> Floats:
+    """The image rows that curves have a point at: the edges and the middles of the bands."""
+    level = np.concatenate([[-1 / 2], LEVEL, [1 / 2]])
+    return np.asarray((level * height_px + (height_px - 1) / 2).clip(0, height_px - 1))
 
 
 def _ends_px(rows: CombRows, comb: RowComb, cover: Cover) -> Floats:

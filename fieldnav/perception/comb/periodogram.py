@@ -48,7 +48,7 @@ def candidates(bands: Bands, tried: SearchRange) -> tuple[RowComb, ...]:
     """The combs that respond best, of different spacings, best first; none without vegetation."""
     if bands.empty:
         return ()
-    energy = np.stack([_energy(bands, tried, index) for index in range(len(tried.convergence))])
+    energy = np.stack([energies(bands, tried, index) for index in range(len(tried.convergence))])
     best = energy.max(axis=(0, 2, 3))
     combs: list[RowComb] = []
     for chosen in _peaks(best, tried.candidates):
@@ -63,7 +63,7 @@ def candidates(bands: Bands, tried: SearchRange) -> tuple[RowComb, ...]:
     return tuple(sorted(combs, key=lambda comb: -comb.response(bands)))
 
 
-def _energy(bands: Bands, tried: SearchRange, index: int) -> Floats:
+def energies(bands: Bands, tried: SearchRange, index: int) -> Floats:
     """Magnitude of the fundamental for each spacing, direction and bend; shape (f, b, c)."""
     grown = growth(float(tried.convergence[index]))
     usable = grown > LEAST_GROWTH

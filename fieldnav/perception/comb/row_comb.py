@@ -85,15 +85,21 @@ def growth(convergence: float) -> Floats:
     return 1 + convergence * LEVEL
 
 
-def straight(convergence: float, rows_across: float, vanishing: float, bend: float = 0.0) -> RowComb:
+def straight(
+    convergence: float,
+    rows_across: float,
+    vanishing: float,
+    bend: float = 0.0,
+    least_spacing: float = LEAST_SPACING,
+) -> RowComb:
     """The comb of straight or evenly bent rows, row 0 through the middle of the picture.
 
     rows_across: how many spacings fit into the width at mid-height; vanishing: where the rows meet on the
-    horizon, and bend: see the module; both in widths.
+    horizon, and bend: see the module; both in widths. least_spacing: of rows that can be told apart.
     """
     grown = growth(convergence)
     usable = grown > LEAST_GROWTH
     grown = np.maximum(grown, LEAST_GROWTH)
     spacing = grown / rows_across
     middle = vanishing * (1 - grown) + bend * (1 - grown) ** 2 / grown
-    return RowComb(middle, spacing, usable & (spacing > LEAST_SPACING))
+    return RowComb(middle, spacing, usable & (spacing > least_spacing))

@@ -34,11 +34,11 @@ class CombRows:
         return len(self.place)
 
 
-def rows_of(comb: RowComb, bands: Bands, scatter: float) -> CombRows:
+def rows_of(comb: RowComb, bands: Bands, scatter: float, in_view: float = LEAST_IN_VIEW) -> CombRows:
     """The rows of a comb that lie in the picture over most of its height.
 
     scatter: standard deviation of one tooth's vegetation about its row, in spacings; a wide one, since the
-    bands of one plant all err alike.
+    bands of one plant all err alike; in_view: share of the height that a row must show.
     """
     number = comb.numbers.astype(float)
     lean = 2 * LEVEL
@@ -47,7 +47,7 @@ def rows_of(comb: RowComb, bands: Bands, scatter: float) -> CombRows:
         off, weight = off_centre(teeth_of(comb, bands, shift), width)
         shift = _line_through(shift + off, weight / scatter**2, lean)
     place = comb.middle + (number[:, None] + shift) * comb.spacing
-    kept = (np.abs(place) < 1 / 2).mean(axis=1) >= LEAST_IN_VIEW
+    kept = (np.abs(place) < 1 / 2).mean(axis=1) >= in_view
     return CombRows(place[kept], *_standing(comb, bands, place[kept]))
 
 

@@ -1,0 +1,107 @@
+"""The judge of rows, fitted to candidates whose truth is known and tried on others."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.optimize import minimize
+
+from fieldnav.evaluation.found_rows import LEAST_CONFIDENCE
+from fieldnav.evaluation.reliability import JudgedRows
+from fieldnav.messages import Floats
+from fieldnav.perception.comb.row_judge import Regression, RowJudge
+
+PENALTY = 3.0  # on the squares of the weights
+MAX_ROUNDS = 1000
+ALMOST_NOTHING = 1e-9
+
+
+@dataclass(frozen=True, slots=True)
+class JudgedCandidate:
+    """One candidate of a picture.
+
+    features: shape (features,); row_features: shape (rows, features), with 0 for the candidate's log odds;
+    worth: 0 for rows that are none to 1 for all rows and no other; right: shape (rows,), 1 and 0 for rows
+    that are there or not, NaN for one that nobody can say this of.
+    """
+
+    features: Floats
+    row_features: Floats
+    worth: float
+    right: Floats
+
+
+JudgedPicture = Sequence[JudgedCandidate]
+"""All candidates of one picture; there may be none."""
+
+
+def fit_judge(pictures: Sequence[JudgedPicture]) -> RowJudge:
+    """Both regressions, the second on the rows of the candidates that the first chooses."""
+    features = np.array([each.features for picture in pictures for each in picture])
+    worth = np.array([each.worth for picture in pictures for each in picture])
+    candidate = fit_regression(features, worth)
+    rows, right = [], []
+    for picture in filter(None, pictures):
+        best, of_rows = _chosen(picture, candidate)
+        rows.append(of_rows)
+        right.append(best.right)
+    of_all, told = np.concatenate(rows), np.concatenate(right)
+    known = np.isfinite(told)
+    return RowJudge(candidate=candidate, row=fit_regression(of_all[known], told[known]))
+
+
+def fit_regression(features: Floats, target: Floats) -> Regression:
+    """Logistic regression of a target from 0 to 1, shape (n,), on features, shape (n, m)."""
+    mean, deviation = features.mean(axis=0), features.std(axis=0) + ALMOST_NOTHING
+    design = np.column_stack([(features - mean) / deviation, np.ones(len(features))])
+    penalised = np.append(np.full(features.shape[1], PENALTY), 0.0)
+
+    def loss(weights: Floats) -> tuple[float, Floats]:
+        odds = design @ weights
+        likely = 1 / (1 + np.exp(-odds))
+        cost = np.logaddexp(0, odds) - target * odds
+        slope = design.T @ (likely - target) + penalised * weights
+        return float(cost.sum() + penalised @ weights**2 / 2), np.asarray(slope)
+
+    start = np.zeros(design.shape[1])
+    found = minimize(loss, start, jac=True, method="L-BFGS-B", options={"maxiter": MAX_ROUNDS})
+    *weights, intercept = found.x.tolist()
+    return Regression(
+        mean=tuple(mean.tolist()),
+        deviation=tuple(deviation.tolist()),
+        weight=tuple(weights),
+        intercept=intercept,
+    )
+
+
+def judged_rows(pictures: Sequence[JudgedPicture], judge: RowJudge) -> JudgedRows:
+    """The rows of the candidates that a judge chooses: its confidence, and whether they are right."""
+    parts = []
+    for picture in filter(None, pictures):
+        best, of_rows = _chosen(picture, judge.candidate)
+        confidence = 1 / (1 + np.exp(-judge.row.log_odds(of_rows)))
+        known = np.isfinite(best.right)
+        parts.append(JudgedRows(np.asarray(confidence[known]), np.asarray(best.right[known] == 1)))
+    return JudgedRows.joined(parts)
+
+
+def reported(picture: JudgedPicture, judge: RowJudge) -> bool:
+    """Whether a judge reports any row of a picture."""
+    if not picture:
+        return False
+    _, of_rows = _chosen(picture, judge.candidate)
+    return bool((judge.row.log_odds(of_rows) >= np.log(LEAST_CONFIDENCE / (1 - LEAST_CONFIDENCE))).any())
+
+
+def left_out(sets: Mapping[str, Sequence[JudgedPicture]], name: str) -> RowJudge:
+    """A judge that is fitted to every set but one."""
+    return fit_judge([picture for title, of_set in sets.items() if title != name for picture in of_set])
+
+
+def _chosen(picture: JudgedPicture, candidate: Regression) -> tuple[JudgedCandidate, Floats]:
+    """The candidate that a regression chooses, and the features of its rows with its log odds in them."""
+    odds = candidate.log_odds(np.array([each.features for each in picture]))
+    best = int(odds.argmax())
+    of_rows = picture[best].row_features.copy()
+    of_rows[:, 0] = odds[best]
+    return picture[best], of_rows

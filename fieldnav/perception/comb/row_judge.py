@@ -1,0 +1,195 @@
+"""Which of the candidates a picture shows, if any, and how sure each of its rows is.
+
+Two logistic regressions: one over what speaks for a candidate as a whole, one over what speaks for each of
+its rows once it has been chosen. Their weights stand in `row_judge.json`. They were fitted to drawn pictures
+alone (`fieldnav.training.row_judge`): every photograph is new to them.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import lru_cache
+from importlib.resources import files
+from math import log
+
+import cv2
+import numpy as np
+from numpy.typing import NDArray
+from pydantic import BaseModel, ConfigDict
+
+from fieldnav.messages import Floats
+from fieldnav.perception.comb.candidates import Candidate, Source
+from fieldnav.perception.comb.row_stand import (
+    PlacedRows,
+    Stand,
+    agreement,
+    explained,
+    placed,
+    stand_of,
+)
+from fieldnav.perception.row_network import FULL, RowHeat
+from fieldnav.perception.vegetation import Cover
+
+BLUR = (3, 1)  # of the network's cells: a row that lies half a cell beside is one still
+LEAST_FIELD, LEAST_HEAT = 1e-4, 0.003
+SURE, SAME = 0.88, 0.85
+"""Confidence of vegetation alone, and agreement with the candidate chosen, from which on its places count."""
+PAIR, NONE_SEEN = 2, 0.5
+BY_VEGETATION = {Source.VEGETATION, Source.NEAR_VEGETATION}
+
+
+class Regression(BaseModel):
+    """A logistic regression: weights of standardised features, in the features' order."""
+
+    model_config = ConfigDict(frozen=True, extra="forbid")
+    mean: tuple[float, ...]
+    deviation: tuple[float, ...]
+    weight: tuple[float, ...]
+    intercept: float
+
+    def log_odds(self, features: Floats) -> Floats:
+        """Shape (n,) for features of shape (n, weights)."""
+        standard = (features - np.array(self.mean)) / np.array(self.deviation)
+        return np.asarray(standard @ np.array(self.weight) + self.intercept)
+
+
+class RowJudge(BaseModel):
+    """Both regressions."""
+
+    model_config = ConfigDict(frozen=True, extra="forbid")
+    candidate: Regression
+    row: Regression
+
+
+@dataclass(frozen=True, slots=True)
+class Account:
+    """What both witnesses say of one candidate; agreement: with the candidates of the other kind."""
+
+    candidate: Candidate
+    rows: PlacedRows
+    vegetation: Stand
+    network: Stand
+    explained: float
+    heat: float
+    field: float
+    agreement: float
+
+    def features(self) -> Floats:
+        """What speaks for or against the candidate, shape (features,)."""
+        seen = self.rows.seen
+        count = int(seen.sum())
+        leans = np.abs(self.rows.place[:, -1] - self.rows.place[:, 0])
+        gaps = np.diff(self.rows.place[:, len(self.rows.spacing) // 2])
+        unevenness = float(gaps.std() / max(abs(gaps.mean()), LEAST_HEAT)) if len(gaps) > 1 else 0.0
+        both = [_summary(stand, seen) for stand in (self.vegetation, self.network)]
+        (_, green_contrast, _, green_even, _), (warm, warm_contrast, _, warm_even, _) = both
+        lone = float(count <= 1)
+        return np.array(
+            [
+                *both[0],
+                *both[1],
+                self.vegetation.width,
+                self.network.width,
+                green_contrast * warm_contrast,
+                min(green_even, warm_even),
+                lone * warm_contrast,
+                self.agreement * warm,
+                self.agreement,
+                log((self.field + LEAST_FIELD) / (1 - self.field + LEAST_FIELD)),
+                self.explained,
+                log(self.heat + LEAST_HEAT),
+                self.candidate.convergence,
+                float(leans.min()),
+                unevenness,
+                lone,
+                float(count == PAIR),
+                log(max(count, NONE_SEEN)),
+                self.candidate.rows_across,
+                *(float(self.candidate.source is source) for source in Source),
+            ]
+        )
+
+    def row_features(self, log_odds: float) -> Floats:
+        """What speaks for each of its rows, shape (rows, features); log_odds: those of the candidate."""
+        whole = np.full(len(self.vegetation.on), log_odds)
+        lone = np.full(len(whole), float(self.rows.seen.sum() <= 1))
+        green, warm = self.vegetation, self.network
+        columns = (whole, green.contrast, green.evenness, warm.on, warm.contrast, warm.evenness, lone)
+        return np.stack(columns, axis=-1)
+
+
+@dataclass(frozen=True, slots=True)
+class Verdict:
+    """The candidate chosen and the probability that each of its rows is one, shape (rows,)."""
+
+    candidate: Candidate
+    confidence: Floats
+
+
+def accounts_of(candidates: Sequence[Candidate], cover: Cover, heat: RowHeat) -> list[Account]:
+    """What both witnesses say of each candidate."""
+    green = np.asarray(cover.strength / np.float32(FULL), np.float32)
+    warm = np.asarray(cv2.blur(heat.centres.astype(np.float32) / FULL, BLUR), np.float32)
+    rows = [placed(each, cover.width_px, cover.height_px) for each in candidates]
+    return [
+        Account(
+            each,
+            own,
+            stand_of(own, green),
+            stand_of(own, warm),
+            explained(own, warm),
+            float(warm[len(warm) // 3 :].mean()),
+            heat.field,
+            _agreement(number, candidates, rows),
+        )
+        for number, (each, own) in enumerate(zip(candidates, rows, strict=True))
+    ]
+
+
+def verdict(told: Sequence[Account], judge: RowJudge) -> Verdict | None:
+    """The candidate that most speaks for; None where there is none."""
+    if not told:
+        return None
+    odds = judge.candidate.log_odds(np.stack([each.features() for each in told]))
+    best = int(odds.argmax())
+    exact = _more_exact(told, told[best])
+    confidence = 1 / (1 + np.exp(-judge.row.log_odds(exact.row_features(float(odds[best])))))
+    return Verdict(exact.candidate, np.asarray(confidence))
+
+
+def _more_exact(told: Sequence[Account], chosen: Account) -> Account:
+    """The same rows as vegetation alone shows them, where it is sure of them: its places are more exact."""
+    same = [
+        each
+        for each in told
+        if each.candidate.source is Source.VEGETATION
+        and each.candidate.sure >= SURE
+        and agreement(chosen.rows, each.rows) >= SAME
+    ]
+    return max(same, key=lambda each: each.candidate.sure, default=chosen)
+
+
+@lru_cache(maxsize=1)
+def row_judge() -> RowJudge:
+    """The judge as it was fitted."""
+    return RowJudge.model_validate_json(files(__package__).joinpath("row_judge.json").read_bytes())
+
+
+def _summary(stand: Stand, seen: NDArray[np.bool_]) -> tuple[float, float, float, float, float]:
+    """On the rows seen: strength, contrast, weakest contrast, evenness; and strength between."""
+    if not seen.any():
+        return 0.0, 0.0, -1.0, 0.0, 0.0
+    contrast = stand.contrast[seen]
+    return (
+        float(stand.on[seen].mean()),
+        float(contrast.mean()),
+        float(contrast.min()),
+        float(stand.evenness[seen].mean()),
+        float(stand.between[seen].mean()),
+    )
+
+
+def _agreement(number: int, candidates: Sequence[Candidate], rows: Sequence[PlacedRows]) -> float:
+    """The best with any candidate of the other kind: of vegetation alone, or of both witnesses."""
+    alone = candidates[number].source in BY_VEGETATION
+    others = [at for at, each in enumerate(candidates) if (each.source in BY_VEGETATION) != alone]
+    return max((agreement(rows[number], rows[other]) for other in others), default=0.0)
