@@ -6,8 +6,9 @@ import numpy as np
 
 from fieldnav.evaluation.benchmark import Better, Figure, LeftOut, Plan, Progress, Report, one_by_one
 from fieldnav.evaluation.found_rows import LEAST_CONFIDENCE
-from fieldnav.evaluation.judge_fit import JudgedPicture, judged_rows, left_out, reported
-from fieldnav.evaluation.judged_photographs import cases_of, judged_picture
+from fieldnav.evaluation.judge_fit import judged_rows, left_out, reported
+from fieldnav.evaluation.judged_candidates import JudgedPicture, judged_picture
+from fieldnav.evaluation.judged_photographs import cases_of
 from fieldnav.evaluation.photographs import PhotographSet
 from fieldnav.evaluation.reliability import calibration_error
 from fieldnav.perception.comb.row_judge import RowJudge

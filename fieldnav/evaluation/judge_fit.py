@@ -1,12 +1,12 @@
 """The judge of rows, fitted to candidates whose truth is known and tried on others."""
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 
 import numpy as np
 from scipy.optimize import minimize
 
 from fieldnav.evaluation.found_rows import LEAST_CONFIDENCE
+from fieldnav.evaluation.judged_candidates import JudgedCandidate, JudgedPicture
 from fieldnav.evaluation.reliability import JudgedRows
 from fieldnav.messages import Floats
 from fieldnav.perception.comb.row_judge import Regression, RowJudge
@@ -14,25 +14,6 @@ from fieldnav.perception.comb.row_judge import Regression, RowJudge
 PENALTY = 3.0  # on the squares of the weights
 MAX_ROUNDS = 1000
 ALMOST_NOTHING = 1e-9
-
-
-@dataclass(frozen=True, slots=True)
-class JudgedCandidate:
-    """One candidate of a picture.
-
-    features: shape (features,); row_features: shape (rows, features), with 0 for the candidate's log odds;
-    worth: 0 for rows that are none to 1 for all rows and no other; right: shape (rows,), 1 and 0 for rows
-    that are there or not, NaN for one that nobody can say this of.
-    """
-
-    features: Floats
-    row_features: Floats
-    worth: float
-    right: Floats
-
-
-JudgedPicture = Sequence[JudgedCandidate]
-"""All candidates of one picture; there may be none."""
 
 
 def fit_judge(pictures: Sequence[JudgedPicture]) -> RowJudge:
@@ -76,13 +57,7 @@ def fit_regression(features: Floats, target: Floats) -> Regression:
 
 def judged_rows(pictures: Sequence[JudgedPicture], judge: RowJudge) -> JudgedRows:
     """The rows of the candidates that a judge chooses: its confidence, and whether they are right."""
-    parts = []
-    for picture in filter(None, pictures):
-        best, of_rows = _chosen(picture, judge.candidate)
-        confidence = 1 / (1 + np.exp(-judge.row.log_odds(of_rows)))
-        known = np.isfinite(best.right)
-        parts.append(JudgedRows(np.asarray(confidence[known]), np.asarray(best.right[known] == 1)))
-    return JudgedRows.joined(parts)
+    return JudgedRows.joined(_judged(picture, judge) for picture in filter(None, pictures))
 
 
 def reported(picture: JudgedPicture, judge: RowJudge) -> bool:
@@ -90,12 +65,18 @@ def reported(picture: JudgedPicture, judge: RowJudge) -> bool:
     if not picture:
         return False
     _, of_rows = _chosen(picture, judge.candidate)
-    return bool((judge.row.log_odds(of_rows) >= np.log(LEAST_CONFIDENCE / (1 - LEAST_CONFIDENCE))).any())
+    return bool((judge.row.probability(of_rows) >= LEAST_CONFIDENCE).any())
 
 
 def left_out(sets: Mapping[str, Sequence[JudgedPicture]], name: str) -> RowJudge:
     """A judge that is fitted to every set but one."""
     return fit_judge([picture for title, of_set in sets.items() if title != name for picture in of_set])
+
+
+def _judged(picture: JudgedPicture, judge: RowJudge) -> JudgedRows:
+    best, of_rows = _chosen(picture, judge.candidate)
+    known = np.isfinite(best.right)
+    return JudgedRows(judge.row.probability(of_rows)[known], np.asarray(best.right[known] == 1))
 
 
 def _chosen(picture: JudgedPicture, candidate: Regression) -> tuple[JudgedCandidate, Floats]:

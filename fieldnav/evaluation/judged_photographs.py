@@ -11,35 +11,14 @@ from fieldnav.evaluation import crbd_truth, lincoln, lincoln_score, near_nadir_s
 from fieldnav.evaluation.benchmark import Plan
 from fieldnav.evaluation.crbd_score import LOWER_HALF_PX, crda, positions, true_rows
 from fieldnav.evaluation.found_rows import UNMATCHED
-from fieldnav.evaluation.judge_fit import JudgedCandidate, JudgedPicture
-from fieldnav.evaluation.near_nadir import ALIKE_DEG
+from fieldnav.evaluation.judged_candidates import JudgedPicture, Truth, judged_picture, worth_of
 from fieldnav.evaluation.photographs import PhotographSet, read_photograph
 from fieldnav.evaluation.rowless_photographs import KINDS, pictures_under
 from fieldnav.messages import Floats, Image
-from fieldnav.perception.comb.candidates import Candidate, candidates_in
-from fieldnav.perception.comb.row_judge import accounts_of
-from fieldnav.perception.comb.search_range import any_camera
-from fieldnav.perception.row_network import look
-from fieldnav.perception.vegetation import vegetation_of
+from fieldnav.perception.comb.row_judge import CandidateMeasures
 from fieldnav.perception.witnessed import lines_of
-from fieldnav.settings.crop import Vegetation
 
-Truth = Callable[[Candidate], tuple[float, Floats]]
-"""What a candidate is worth, and which of its rows are right, as in JudgedCandidate."""
 Case = tuple[Image, Truth]
-ALIKE_WORTH = 0.3
-"""Of the worth of rows, that their right direction counts."""
-
-
-def judged_picture(image: Image, truth: Truth) -> JudgedPicture:
-    """Every candidate of a picture, of a camera and a crop that nobody knows."""
-    vegetation = Vegetation()
-    cover, heat = vegetation_of(image, vegetation), look(image)
-    candidates = candidates_in(image, cover, heat, any_camera(None), vegetation)
-    return [
-        JudgedCandidate(told.features(), told.row_features(0.0), *truth(told.candidate))
-        for told in accounts_of(candidates, cover, heat)
-    ]
 
 
 def judged_cases(cases: Sequence[Case]) -> list[JudgedPicture]:
@@ -59,14 +38,6 @@ def cases_of(plan: Plan) -> dict[str, list[Case]]:
     return {each.title: list(read(plan)) for each, read in readers.items() if each.folder(plan) is not None}
 
 
-def worth_of(right: Floats, must_be_found: int, turned_deg: Floats) -> float:
-    """The harmonic mean of precision and recall, less where rows that are right have a wrong direction."""
-    hits, wrong = int((right == 1).sum()), int((right == 0).sum())
-    alike = float(np.mean(turned_deg < ALIKE_DEG)) if len(turned_deg) else 0.0
-    f1 = 2 * hits / max(hits + wrong + must_be_found, 1)
-    return min(f1, 1.0) * (1 - ALIKE_WORTH * (1 - alike))
-
-
 def _near_nadir(plan: Plan) -> Iterator[Case]:
     for photograph in near_nadir_truth.photographs_in(_folder(PhotographSet.NEAR_NADIR, plan)):
         image = read_photograph(photograph.path)
@@ -74,9 +45,9 @@ def _near_nadir(plan: Plan) -> Iterator[Case]:
 
 
 def _as_near_nadir(
-    photograph: near_nadir_truth.Photograph, size: tuple[int, int], candidate: Candidate
+    photograph: near_nadir_truth.Photograph, size: tuple[int, int], measured: CandidateMeasures
 ) -> tuple[float, Floats]:
-    lines = lines_of(candidate, np.ones(len(candidate.paths_px)), size[1])
+    lines = lines_of(measured.candidate, np.ones(len(measured.candidate.paths_px)), size[1])
     given = (lines, photograph.rows, photograph.must_be_found, size)
     judged, tally = near_nadir_score.judge(*given), near_nadir_score.score(*given)
     right = np.where(judged.counts, (judged.true != UNMATCHED).astype(float), np.nan)
@@ -88,9 +59,9 @@ def _crbd(plan: Plan) -> Iterator[Case]:
         yield read_photograph(picture.path), partial(_as_crbd, picture.truth)
 
 
-def _as_crbd(truth: crbd_truth.TrueLattice, candidate: Candidate) -> tuple[float, Floats]:
+def _as_crbd(truth: crbd_truth.TrueLattice, measured: CandidateMeasures) -> tuple[float, Floats]:
     """The set's own score says how well the middle rows fit; it knows nothing of the others."""
-    places = positions(candidate.paths_px)
+    places = positions(measured.candidate.paths_px)
     right = (true_rows(places, truth) != UNMATCHED).astype(float)
     return float(right.mean()) * crda(places, truth, LOWER_HALF_PX), right
 
@@ -100,9 +71,9 @@ def _lincoln(plan: Plan) -> Iterator[Case]:
         yield read_photograph(picture.path), partial(_as_lincoln, picture.rows)
 
 
-def _as_lincoln(rows: tuple[Floats, ...], candidate: Candidate) -> tuple[float, Floats]:
-    judged = lincoln_score.judge(candidate.paths_px, rows)
-    tally = lincoln_score.score(candidate.paths_px, rows)
+def _as_lincoln(rows: tuple[Floats, ...], measured: CandidateMeasures) -> tuple[float, Floats]:
+    paths_px = measured.candidate.paths_px
+    judged, tally = lincoln_score.judge(paths_px, rows), lincoln_score.score(paths_px, rows)
     right = np.where(judged.counts, (judged.true != UNMATCHED).astype(float), np.nan)
     return worth_of(right, tally.main_rows, tally.turned_deg), right
 
@@ -113,8 +84,8 @@ def _rowless(plan: Plan) -> Iterator[Case]:
             yield read_photograph(path), _as_rowless
 
 
-def _as_rowless(candidate: Candidate) -> tuple[float, Floats]:
-    return 0.0, np.zeros(len(candidate.paths_px))
+def _as_rowless(measured: CandidateMeasures) -> tuple[float, Floats]:
+    return 0.0, np.zeros(len(measured.candidate.paths_px))
 
 
 def _folder(photographs: PhotographSet, plan: Plan) -> Path:

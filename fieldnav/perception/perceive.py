@@ -22,9 +22,9 @@ class View:
     """What one frame shows.
 
     cover and centres: its vegetation and the plants; lines: every row it shows, left to right; paths_px: the
-    same rows as curves, shape (rows, points, 2), x and y from the upper edge to the lower;
-    lane: the rows under the robot, None when there are none; field: the probability that the picture shows a
-    field of rows at all, None where nobody asked (a frame of a camera whose pose is known).
+    same rows as curves, shape (rows, points, 2), x and y from the upper edge to the lower; lane: the rows
+    under the robot, None when there are none; field: the probability that the picture shows a field of rows
+    at all, None where only vegetation was looked at.
     """
 
     cover: Cover

@@ -40,17 +40,22 @@ def look(image: Image) -> RowHeat:
     It looks at the picture and at its mirror image, and what it sees is the mean: a mirrored picture has the
     mirrored rows.
     """
-    plain = network_input(image)
+    small = np.asarray(cv2.resize(image, SIZE_PX, interpolation=cv2.INTER_AREA), np.uint8)
+    plain = normalised(small[None])
     centres, field = _forward(plain)
     mirrored, mirrored_field = _forward(np.ascontiguousarray(plain[..., ::-1]))
     return RowHeat(_levels((centres + mirrored[:, ::-1]) / 2), (field + mirrored_field) / 2)
 
 
-def network_input(image: Image) -> NDArray[np.float32]:
-    """The picture as the network takes it, shape (1, 3, 128, 192): small, and of standard light."""
-    small = cv2.resize(image, SIZE_PX, interpolation=cv2.INTER_AREA).astype(np.float32) / FULL
-    standard = (small - small.mean()) / (small.std() + LEAST_CONTRAST)
-    return np.ascontiguousarray(standard.transpose(2, 0, 1)[None], np.float32)
+def normalised(images: NDArray[np.uint8] | NDArray[np.float32]) -> NDArray[np.float32]:
+    """Images of shape (n, h, w, 3), blue green red, 0 to 255, as the network takes them: (n, 3, h, w).
+
+    Each is given by its own brightness and contrast.
+    """
+    values = images.astype(np.float32) / np.float32(FULL)
+    mean = values.mean(axis=(1, 2, 3), keepdims=True)
+    deviation = values.std(axis=(1, 2, 3), keepdims=True)
+    return np.ascontiguousarray(((values - mean) / (deviation + LEAST_CONTRAST)).transpose(0, 3, 1, 2))
 
 
 @lru_cache(maxsize=1)

@@ -7,7 +7,7 @@ import numpy as np
 from fieldnav.messages import Floats, Image, RowLine
 from fieldnav.perception.comb.candidates import Candidate, candidates_in
 from fieldnav.perception.comb.periodogram import SearchRange
-from fieldnav.perception.comb.row_judge import accounts_of, row_judge, verdict
+from fieldnav.perception.comb.row_judge import choose_rows, measure, row_judge
 from fieldnav.perception.found import NO_ROWS, Found
 from fieldnav.perception.row_network import look
 from fieldnav.perception.vegetation import Cover, as_colour
@@ -33,7 +33,7 @@ def find_witnessed(image: Image, cover: Cover, vegetation: Vegetation, tried: Se
         return Witnessed(NO_ROWS, None, 0.0)
     heat = look(colour)
     candidates = candidates_in(colour, cover, heat, tried, vegetation)
-    chosen = verdict(accounts_of(candidates, cover, heat), row_judge())
+    chosen = choose_rows(measure(candidates, cover, heat), row_judge())
     if chosen is None:
         return Witnessed(NO_ROWS, None, heat.field)
     lines = lines_of(chosen.candidate, chosen.confidence, cover.height_px)

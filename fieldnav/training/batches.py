@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from fieldnav.training.normalisation import WHITE, normalise
+from fieldnav.perception.row_network import FULL, normalised
 from fieldnav.training.pool import Chunk
 
 BATCH = 32
@@ -18,7 +18,7 @@ Reals = NDArray[np.float32]
 
 
 @dataclass(frozen=True, slots=True)
-class Batch:
+class TrainingBatch:
     """Network inputs with their truth, all float32.
 
     inputs: shape (n, 3, 128, 192); heat: (n, 1, 64, 96), 0 to 1; judged: (n, 1, 64, 96), 0 or 1.
@@ -46,7 +46,7 @@ class TrainingPictures:
         """Take in a chunk, all of the same size."""
         self._chunks[number] = chunk
 
-    def next_batch(self) -> Batch:
+    def next_batch(self) -> TrainingBatch:
         """BATCH pictures, each from anywhere."""
         random, chunks = self._random, list(self._chunks.values())
         places = [divmod(int(place), len(chunks[0])) for place in random.integers(0, len(self), BATCH)]
@@ -56,7 +56,7 @@ class TrainingPictures:
         mirrored = random.random(BATCH) < MIRRORED_SHARE
         for array in (images, heat, ignored):
             array[mirrored] = array[mirrored, :, ::-1]
-        inputs = normalise(self._tinted(images))
+        inputs = normalised(self._tinted(images))
         if random.random() < NOISY_SHARE:
             inputs += np.float32(NOISE) * random.standard_normal(inputs.shape, dtype=np.float32)
         return _batch(inputs, heat, ignored)
@@ -65,17 +65,17 @@ class TrainingPictures:
         if self._random.random() >= TINTED_SHARE:
             return images
         gains = 1 + TINT * self._random.standard_normal((len(images), 1, 1, 3), dtype=np.float32)
-        return np.asarray((images * gains).clip(0, WHITE), np.float32)
+        return np.asarray((images * gains).clip(0, FULL), np.float32)
 
 
-def plain_batches(chunk: Chunk) -> Iterator[Batch]:
+def plain_batches(chunk: Chunk) -> Iterator[TrainingBatch]:
     """All pictures of a chunk in order, unchanged."""
     for start in range(0, len(chunk), BATCH):
         part = slice(start, start + BATCH)
-        yield _batch(normalise(chunk.images[part]), chunk.heat[part], chunk.ignored[part])
+        yield _batch(normalised(chunk.images[part]), chunk.heat[part], chunk.ignored[part])
 
 
-def _batch(inputs: Reals, heat: NDArray[np.uint8], ignored: NDArray[np.bool_]) -> Batch:
-    return Batch(
-        inputs, heat[:, None].astype(np.float32) / np.float32(WHITE), 1 - ignored[:, None].astype(np.float32)
+def _batch(inputs: Reals, heat: NDArray[np.uint8], ignored: NDArray[np.bool_]) -> TrainingBatch:
+    return TrainingBatch(
+        inputs, heat[:, None].astype(np.float32) / np.float32(FULL), 1 - ignored[:, None].astype(np.float32)
     )

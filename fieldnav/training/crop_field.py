@@ -21,7 +21,7 @@ from fieldnav.training.colours import foliage_colour, soil_colour
 from fieldnav.training.field_cover import hide_parts
 from fieldnav.training.ground_camera import Floats, GroundCamera, Projected, draw_camera
 from fieldnav.training.ground_cover import draw_stones, log_normal, scatter
-from fieldnav.training.plants import SHAPES, Look, PlantShape, any_shape, draw_plants
+from fieldnav.training.plants import SHAPES, PlantLook, PlantShape, any_shape, draw_plants
 from fieldnav.training.surfaces import draw_region, textured
 from fieldnav.training.truth import RowCourse
 
@@ -86,7 +86,7 @@ class _Sowing:
     offset: Floats
     missing: NDArray[np.bool_]
     stand: Floats
-    look: Look
+    look: PlantLook
     radius: float
     step: float
     scatter: float
@@ -150,7 +150,7 @@ def _draw_sowing(random: np.random.Generator, missing: NDArray[np.bool_], offset
     step = max(diameters * radius * 2, MIN_STEP)
     gaps = random.choice(GAP_SHARES)
     across = random.uniform(*SCATTER) * radius + MIN_SCATTER
-    look = Look(shape, colour, random.uniform(*COLOUR_SPREAD), random.choice(HEIGHTS))
+    look = PlantLook(shape, colour, random.uniform(*COLOUR_SPREAD), random.choice(HEIGHTS))
     grass = shape is PlantShape.GRASS
     end = random.uniform(*END) if chance(random, ENDING_SHARE) else np.inf
     return _Sowing(
@@ -211,7 +211,7 @@ def _draw_weeds(random: np.random.Generator, canvas: Canvas, camera: GroundCamer
     radii = log_normal(random, median, WEED_SPREAD, len(places))
     shape = any_shape(random)
     colour = foliage_colour(random) if chance(random, WEED_OWN_COLOUR_SHARE) else sowing.look.colour
-    draw_plants(random, canvas, places, radii, Look(shape, colour, sowing.look.colour_spread, 0.0))
+    draw_plants(random, canvas, places, radii, PlantLook(shape, colour, sowing.look.colour_spread, 0.0))
 
 
 def _draw_shadows(

@@ -1,19 +1,15 @@
 """What speaks for the rows that perception might see in drawn pictures, and whether they are there."""
 
 from collections.abc import Iterable
+from functools import partial
 
 import cv2
 import numpy as np
 from scipy.optimize import linear_sum_assignment
 
-from fieldnav.evaluation.judge_fit import JudgedCandidate, JudgedPicture
-from fieldnav.perception.comb.candidates import candidates_in
-from fieldnav.perception.comb.row_judge import Account, accounts_of
-from fieldnav.perception.comb.row_stand import HEIGHTS, PlacedRows
-from fieldnav.perception.comb.search_range import any_camera
-from fieldnav.perception.row_network import look
-from fieldnav.perception.vegetation import vegetation_of
-from fieldnav.settings.crop import Vegetation
+from fieldnav.evaluation.judged_candidates import JudgedPicture, judged_picture, worth_of
+from fieldnav.perception.comb.row_contrast import HEIGHTS, PlacedRows
+from fieldnav.perception.comb.row_judge import CandidateMeasures
 from fieldnav.training.canvas import HEIGHT_PX, WIDTH_PX
 from fieldnav.training.drawn_picture import DrawnPicture, draw
 from fieldnav.training.ground_camera import Floats
@@ -27,8 +23,6 @@ SEEN_HEAT, SEEN_SHARE = 0.4, 0.4
 """A true row must be found that the truth shows on this share of the heights within the picture,"""
 LOWEST, LEAST_INSIDE = 0.75, 0.25
 """some of them at least so low; one that is inside on fewer heights need not be."""
-ALIKE_RAD, ALIKE_WORTH = np.radians(2.0), 0.3
-"""A row within this angle is right in direction; what this counts in the worth of a candidate."""
 FAR_OFF = 1e3
 FEWEST_POINTS = 2
 
@@ -43,26 +37,18 @@ def judged(drawn: DrawnPicture) -> JudgedPicture:
     """All that perception might see in a drawn picture, with what is true of it."""
     size = (WIDTH_PX * ENLARGED, HEIGHT_PX * ENLARGED)
     image = np.asarray(cv2.resize(drawn.image, size, interpolation=cv2.INTER_CUBIC), np.uint8)
-    vegetation = Vegetation()
-    cover, heat = vegetation_of(image, vegetation), look(image)
-    candidates = candidates_in(image, cover, heat, any_camera(None), vegetation)
     true = np.array([_place(row) for row in drawn.rows]).reshape(-1, len(HEIGHTS))
     seen = np.array([_is_seen(place, drawn) for place in true], bool)
-    return [_judged(told, true, seen) for told in accounts_of(candidates, cover, heat)]
+    return judged_picture(image, partial(_truth, true, seen))
 
 
-def _judged(told: Account, true: Floats, seen: Floats) -> JudgedCandidate:
-    right, turned_rad = _compared(told.rows, true, seen)
-    hits = int(np.nansum(right))
-    wrong, missed = int((right == 0).sum()), int(seen.sum()) - hits
-    worth = 2 * hits / max(2 * hits + wrong + missed, 1)
-    alike = float(np.nanmean(turned_rad < ALIKE_RAD)) if hits else 0.0
-    worth *= 1 - ALIKE_WORTH * (1 - alike)
-    return JudgedCandidate(told.features(), told.row_features(0.0), worth, right)
+def _truth(true: Floats, seen: Floats, measured: CandidateMeasures) -> tuple[float, Floats]:
+    right, turned_deg = _compared(measured.rows, true, seen)
+    return worth_of(right, int(seen.sum()), turned_deg[right == 1]), right
 
 
 def _compared(rows: PlacedRows, true: Floats, seen: Floats) -> tuple[Floats, Floats]:
-    """Whether each row is a true one, and by how much it is turned from that; shape (rows,) each."""
+    """Whether each row is a true one, and by how many degrees it is turned from that; shape (rows,) each."""
     right, turned = np.zeros(len(rows.place)), np.full(len(rows.place), np.nan)
     if not len(true) or not len(rows.place):
         return right, turned
@@ -74,15 +60,15 @@ def _compared(rows: PlacedRows, true: Floats, seen: Floats) -> tuple[Floats, Flo
     for own, other in zip(*linear_sum_assignment(np.minimum(mean, limit)), strict=True):
         if mean[own, other] < limit:
             right[own] = 1.0 if seen[other] else np.nan
-            turned[own] = _angle_between_rad(rows.place[own], true[other], inside[other])
-    return right, np.where(right == 1, turned, np.nan)
+            turned[own] = _angle_between_deg(rows.place[own], true[other], inside[other])
+    return right, turned
 
 
-def _angle_between_rad(one: Floats, other: Floats, inside: Floats) -> float:
+def _angle_between_deg(one: Floats, other: Floats, inside: Floats) -> float:
     """Between the lines fitted to two rows, in the picture's own proportions."""
     down = HEIGHTS[inside] * HEIGHT_PX / WIDTH_PX
     first, second = (np.arctan(np.polyfit(down, place[inside], 1)[0]) for place in (one, other))
-    return float(abs(first - second))
+    return float(np.degrees(abs(first - second)))
 
 
 def _place(row: RowCourse) -> Floats:

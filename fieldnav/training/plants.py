@@ -54,7 +54,7 @@ SHAPES = tuple(PlantShape)
 
 
 @dataclass(frozen=True, slots=True)
-class Look:
+class PlantLook:
     """How plants look; `height` is that of the plant in its radii."""
 
     shape: PlantShape
@@ -81,7 +81,7 @@ def any_shape(random: np.random.Generator) -> PlantShape:
 
 
 def draw_plants(
-    random: np.random.Generator, canvas: Canvas, places: Projected, radii: Floats, look: Look
+    random: np.random.Generator, canvas: Canvas, places: Projected, radii: Floats, look: PlantLook
 ) -> None:
     """Draw plants of these radii, shape (n,), in row spacings, the far ones first; changes `canvas`."""
     if len(places) == 0:

@@ -15,7 +15,8 @@ from typing import TypeVar
 
 from fieldnav.errors import FieldnavError
 from fieldnav.evaluation.benchmark import Plan
-from fieldnav.evaluation.judge_fit import JudgedPicture, fit_judge
+from fieldnav.evaluation.judge_fit import fit_judge
+from fieldnav.evaluation.judged_candidates import JudgedPicture
 from fieldnav.evaluation.judged_photographs import cases_of, judged_cases
 from fieldnav.training.judged_rows import judged_pictures
 

@@ -25,7 +25,7 @@ from fieldnav.training.colours import any_colour, foliage_colour, foliage_or_any
 from fieldnav.training.dead_leaves import any_surface, draw_dead_leaves
 from fieldnav.training.ground_camera import draw_camera
 from fieldnav.training.ground_cover import draw_stones, log_normal, scatter
-from fieldnav.training.plants import Look, any_shape, draw_plants
+from fieldnav.training.plants import PlantLook, any_shape, draw_plants
 from fieldnav.training.surfaces import COVER_OCTAVES, bare_ground, draw_region, draw_sky, foliage, textured
 
 GROUND_STRENGTH: Range = (0.05, 0.6)
@@ -68,7 +68,7 @@ def draw_bare_field(random: np.random.Generator) -> Canvas:
     if count:
         places = scatter(random, camera, count, PLANTS_ASIDE)
         radii = log_normal(random, random.uniform(*PLANT_RADIUS), RADIUS_SPREAD, len(places))
-        look = Look(any_shape(random), foliage_colour(random), COLOUR_SPREAD, 0.0)
+        look = PlantLook(any_shape(random), foliage_colour(random), COLOUR_SPREAD, 0.0)
         draw_plants(random, canvas, places, radii, look)
     if chance(random, GROUND_SKY_SHARE) and camera.horizon_px > 0:
         draw_sky(random, canvas, camera.horizon_px)

@@ -10,7 +10,7 @@ import torch
 from torch import Tensor, nn, optim
 from torch.nn import functional
 
-from fieldnav.training.batches import Batch, TrainingPictures, plain_batches
+from fieldnav.training.batches import TrainingBatch, TrainingPictures, plain_batches
 from fieldnav.training.network import RowNetwork
 from fieldnav.training.pool import Chunk, Drawers, Pool
 
@@ -65,7 +65,7 @@ class Trainer:
         self._optimiser = optim.AdamW(self.network.parameters(), lr=PEAK_RATE, weight_decay=WEIGHT_DECAY)
         self._recent: deque[tuple[float, float]] = deque(maxlen=RECENT_STEPS)
 
-    def step(self, batch: Batch, progress: float) -> None:
+    def step(self, batch: TrainingBatch, progress: float) -> None:
         """Learn from a batch; `progress` from 0 to 1 sets the learning rate."""
         for group in self._optimiser.param_groups:
             group["lr"] = learning_rate(self.steps, progress)
@@ -89,7 +89,7 @@ def learning_rate(steps: int, progress: float) -> float:
     return float(PEAK_RATE * warm_up * ((1 + np.cos(np.pi * progress)) / 2 + MIN_RATE))
 
 
-def losses(network: RowNetwork, batch: Batch) -> tuple[Tensor, Tensor]:
+def losses(network: RowNetwork, batch: TrainingBatch) -> tuple[Tensor, Tensor]:
     """Loss of the heat over the judged pixels, and of the field."""
     truth, judged = torch.from_numpy(batch.heat), torch.from_numpy(batch.judged)
     heat, field = network(torch.from_numpy(batch.inputs))

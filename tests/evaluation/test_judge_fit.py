@@ -5,13 +5,13 @@ import pytest
 
 from fieldnav.evaluation.cross_set import figures_of
 from fieldnav.evaluation.judge_fit import (
-    JudgedCandidate,
     fit_judge,
     fit_regression,
     judged_rows,
     left_out,
     reported,
 )
+from fieldnav.evaluation.judged_candidates import JudgedCandidate
 
 RANDOM = np.random.default_rng(5)
 

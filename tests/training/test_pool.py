@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 
 from fieldnav.errors import OutputError, SettingsError
+from fieldnav.perception.row_network import normalised
 from fieldnav.training.batches import BATCH, TrainingPictures, plain_batches
 from fieldnav.training.drawn_picture import draw
-from fieldnav.training.normalisation import normalise
 from fieldnav.training.pool import SEEDS, Chunk, Pool, drawing
 
 
@@ -104,7 +104,7 @@ def test_held_out_pictures_come_in_order_and_once() -> None:
 def test_a_normalised_image_does_not_depend_on_brightness() -> None:
     images = np.random.default_rng(2).integers(60, 120, (2, 128, 192, 3)).astype(np.uint8)
 
-    plain, brighter = normalise(images), normalise(images + np.uint8(80))
+    plain, brighter = normalised(images), normalised(images + np.uint8(80))
 
     assert plain.shape == (2, 3, 128, 192)
     assert plain.dtype == np.float32

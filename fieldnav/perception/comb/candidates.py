@@ -72,7 +72,7 @@ def candidates_in(
         return []
     evidence = evidence_of(bands, heat)
     found = _straight_and_bent(bands, evidence, cover)
-    combs = _vegetation_combs(bands, tried, tried.refined)
+    combs = [refined(comb, bands) for comb in candidates(bands, tried)[: tried.refined]]
     found += [_of_vegetation(comb, bands, cover, Source.VEGETATION) for comb in combs]
     if combs:
         best = fitted(max(combs, key=lambda comb: comb.response(bands)), evidence)
@@ -99,10 +99,6 @@ def _straight(found: FittedComb, evidence: Bands, cover: Cover) -> Candidate:
     return _candidate(found.comb, rows, cover, Source.STRAIGHT)
 
 
-def _vegetation_combs(bands: Bands, tried: SearchRange, most: int) -> list[RowComb]:
-    return [refined(comb, bands) for comb in candidates(bands, tried)[:most]]
-
-
 def _of_vegetation(comb: RowComb, bands: Bands, cover: Cover, source: Source) -> Candidate:
     scatter = STEEP_SCATTER if convergence_of(comb) < OBLIQUE else OBLIQUE_SCATTER
     rows = rows_of(comb, bands, scatter, IN_VIEW)
@@ -115,8 +111,8 @@ def _near(image: Image, tried: SearchRange, vegetation: Vegetation) -> list[Cand
     top_px = round(NEAR_PART * len(image))
     cover = vegetation_of(image[top_px:], vegetation)
     bands = bands_of(cover.strength)
-    combs = _vegetation_combs(bands, tried, NEAR_COMBS)
-    found = [_of_vegetation(comb, bands, cover, Source.NEAR_VEGETATION) for comb in combs]
+    combs = candidates(bands, tried)[:NEAR_COMBS]
+    found = [_of_vegetation(refined(comb, bands), bands, cover, Source.NEAR_VEGETATION) for comb in combs]
     return [_in_whole(each, top_px, len(image)) for each in found]
 
 
@@ -132,11 +128,11 @@ def _in_whole(near: Candidate, top_px: int, height_px: int) -> Candidate:
     whole = np.concatenate([top[:, None], paths_px], axis=1)
     y = curve_rows_px(height_px)
     x = np.array([np.interp(y, path[:, 1], path[:, 0]) for path in whole]).reshape(len(whole), len(y))
-    return Candidate(
-        np.stack([x, np.broadcast_to(y, x.shape)], axis=-1),
-        near.convergence / share / scale,
-        near.rows_across / scale,
-        near.source,
+    return replace(
+        near,
+        paths_px=np.stack([x, np.broadcast_to(y, x.shape)], axis=-1),
+        convergence=near.convergence / share / scale,
+        rows_across=near.rows_across / scale,
     )
 
 

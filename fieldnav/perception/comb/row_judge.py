@@ -2,7 +2,7 @@
 
 Two logistic regressions: one over what speaks for a candidate as a whole, one over what speaks for each of
 its rows once it has been chosen. Their weights stand in `row_judge.json`. They were fitted to drawn pictures
-alone (`fieldnav.training.row_judge`): every photograph is new to them.
+and to the photographs of the benchmark of detection (`fieldnav.training.row_judge`), unlike the network.
 """
 
 from collections.abc import Sequence
@@ -18,13 +18,13 @@ from pydantic import BaseModel, ConfigDict
 
 from fieldnav.messages import Floats
 from fieldnav.perception.comb.candidates import Candidate, Source
-from fieldnav.perception.comb.row_stand import (
+from fieldnav.perception.comb.row_contrast import (
     PlacedRows,
-    Stand,
+    RowContrast,
     agreement,
+    contrast_of,
     explained,
     placed,
-    stand_of,
 )
 from fieldnav.perception.row_network import FULL, RowHeat
 from fieldnav.perception.vegetation import Cover
@@ -51,6 +51,10 @@ class Regression(BaseModel):
         standard = (features - np.array(self.mean)) / np.array(self.deviation)
         return np.asarray(standard @ np.array(self.weight) + self.intercept)
 
+    def probability(self, features: Floats) -> Floats:
+        """The same as probabilities."""
+        return np.asarray(1 / (1 + np.exp(-self.log_odds(features))))
+
 
 class RowJudge(BaseModel):
     """Both regressions."""
@@ -61,13 +65,13 @@ class RowJudge(BaseModel):
 
 
 @dataclass(frozen=True, slots=True)
-class Account:
+class CandidateMeasures:
     """What both witnesses say of one candidate; agreement: with the candidates of the other kind."""
 
     candidate: Candidate
     rows: PlacedRows
-    vegetation: Stand
-    network: Stand
+    vegetation: RowContrast
+    network: RowContrast
     explained: float
     heat: float
     field: float
@@ -80,7 +84,7 @@ class Account:
         leans = np.abs(self.rows.place[:, -1] - self.rows.place[:, 0])
         gaps = np.diff(self.rows.place[:, len(self.rows.spacing) // 2])
         unevenness = float(gaps.std() / max(abs(gaps.mean()), LEAST_HEAT)) if len(gaps) > 1 else 0.0
-        both = [_summary(stand, seen) for stand in (self.vegetation, self.network)]
+        both = [_summary(each, seen) for each in (self.vegetation, self.network)]
         (_, green_contrast, _, green_even, _), (warm, warm_contrast, _, warm_even, _) = both
         lone = float(count <= 1)
         return np.array(
@@ -118,24 +122,24 @@ class Account:
 
 
 @dataclass(frozen=True, slots=True)
-class Verdict:
+class ChosenRows:
     """The candidate chosen and the probability that each of its rows is one, shape (rows,)."""
 
     candidate: Candidate
     confidence: Floats
 
 
-def accounts_of(candidates: Sequence[Candidate], cover: Cover, heat: RowHeat) -> list[Account]:
+def measure(candidates: Sequence[Candidate], cover: Cover, heat: RowHeat) -> list[CandidateMeasures]:
     """What both witnesses say of each candidate."""
     green = np.asarray(cover.strength / np.float32(FULL), np.float32)
     warm = np.asarray(cv2.blur(heat.centres.astype(np.float32) / FULL, BLUR), np.float32)
     rows = [placed(each, cover.width_px, cover.height_px) for each in candidates]
     return [
-        Account(
+        CandidateMeasures(
             each,
             own,
-            stand_of(own, green),
-            stand_of(own, warm),
+            contrast_of(own, green),
+            contrast_of(own, warm),
             explained(own, warm),
             float(warm[len(warm) // 3 :].mean()),
             heat.field,
@@ -145,22 +149,21 @@ def accounts_of(candidates: Sequence[Candidate], cover: Cover, heat: RowHeat) ->
     ]
 
 
-def verdict(told: Sequence[Account], judge: RowJudge) -> Verdict | None:
-    """The candidate that most speaks for; None where there is none."""
-    if not told:
+def choose_rows(measured: Sequence[CandidateMeasures], judge: RowJudge) -> ChosenRows | None:
+    """The candidate with the highest odds; None where there is none."""
+    if not measured:
         return None
-    odds = judge.candidate.log_odds(np.stack([each.features() for each in told]))
+    odds = judge.candidate.log_odds(np.stack([each.features() for each in measured]))
     best = int(odds.argmax())
-    exact = _more_exact(told, told[best])
-    confidence = 1 / (1 + np.exp(-judge.row.log_odds(exact.row_features(float(odds[best])))))
-    return Verdict(exact.candidate, np.asarray(confidence))
+    exact = _more_exact(measured, measured[best])
+    return ChosenRows(exact.candidate, judge.row.probability(exact.row_features(float(odds[best]))))
 
 
-def _more_exact(told: Sequence[Account], chosen: Account) -> Account:
+def _more_exact(measured: Sequence[CandidateMeasures], chosen: CandidateMeasures) -> CandidateMeasures:
     """The same rows as vegetation alone shows them, where it is sure of them: its places are more exact."""
     same = [
         each
-        for each in told
+        for each in measured
         if each.candidate.source is Source.VEGETATION
         and each.candidate.sure >= SURE
         and agreement(chosen.rows, each.rows) >= SAME
@@ -174,17 +177,17 @@ def row_judge() -> RowJudge:
     return RowJudge.model_validate_json(files(__package__).joinpath("row_judge.json").read_bytes())
 
 
-def _summary(stand: Stand, seen: NDArray[np.bool_]) -> tuple[float, float, float, float, float]:
+def _summary(rows: RowContrast, seen: NDArray[np.bool_]) -> tuple[float, float, float, float, float]:
     """On the rows seen: strength, contrast, weakest contrast, evenness; and strength between."""
     if not seen.any():
         return 0.0, 0.0, -1.0, 0.0, 0.0
-    contrast = stand.contrast[seen]
+    contrast = rows.contrast[seen]
     return (
-        float(stand.on[seen].mean()),
+        float(rows.on[seen].mean()),
         float(contrast.mean()),
         float(contrast.min()),
-        float(stand.evenness[seen].mean()),
-        float(stand.between[seen].mean()),
+        float(rows.evenness[seen].mean()),
+        float(rows.between[seen].mean()),
     )
 
 

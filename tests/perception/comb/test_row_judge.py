@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from fieldnav.perception.comb.candidates import Candidate, Source, candidates_in
-from fieldnav.perception.comb.row_judge import Regression, accounts_of, row_judge, verdict
-from fieldnav.perception.comb.row_stand import agreement, explained, placed, stand_of
+from fieldnav.perception.comb.row_contrast import agreement, contrast_of, explained, placed
+from fieldnav.perception.comb.row_judge import Regression, choose_rows, measure, row_judge
 from fieldnav.perception.comb.search_range import any_camera
 from fieldnav.perception.row_network import RowHeat
 from fieldnav.perception.vegetation import Cover
@@ -34,8 +34,8 @@ ROWS = (50.0, 150.0, 250.0, 350.0)
 def test_rows_stand_out_where_they_are_and_not_between() -> None:
     witness = stripes(96, 64, ROWS)
 
-    there = stand_of(placed(upright(*ROWS), WIDTH, HEIGHT), witness)
-    beside = stand_of(placed(upright(100.0, 200.0, 300.0), WIDTH, HEIGHT), witness)
+    there = contrast_of(placed(upright(*ROWS), WIDTH, HEIGHT), witness)
+    beside = contrast_of(placed(upright(100.0, 200.0, 300.0), WIDTH, HEIGHT), witness)
 
     assert there.contrast.min() > 0.7
     assert there.evenness == pytest.approx(1)
@@ -66,7 +66,7 @@ def test_the_rows_that_both_witnesses_show_are_chosen() -> None:
     heat = RowHeat((stripes(96, 64, ROWS) * 255).astype(np.uint8), 0.99)
     candidates = [upright(100.0, 200.0, 300.0), upright(*ROWS), upright(20.0, spacing=300.0)]
 
-    chosen = verdict(accounts_of(candidates, cover, heat), row_judge())
+    chosen = choose_rows(measure(candidates, cover, heat), row_judge())
 
     assert chosen is not None
     assert chosen.candidate is candidates[1]
@@ -74,7 +74,7 @@ def test_the_rows_that_both_witnesses_show_are_chosen() -> None:
 
 
 def test_nothing_is_chosen_from_nothing() -> None:
-    assert verdict([], row_judge()) is None
+    assert choose_rows([], row_judge()) is None
 
 
 def test_features_are_finite_in_odd_pictures() -> None:
@@ -82,7 +82,7 @@ def test_features_are_finite_in_odd_pictures() -> None:
         green = image[:, :, 1].copy()
         cover = Cover(green, 40.0, 15.0, image.shape[1], image.shape[0])
         heat = RowHeat(np.zeros((64, 96), np.uint8), 0.0)
-        told = accounts_of(candidates_in(image, cover, heat, any_camera(None), Vegetation()), cover, heat)
+        told = measure(candidates_in(image, cover, heat, any_camera(None), Vegetation()), cover, heat)
         for each in told:
             assert np.isfinite(each.features()).all()
             assert np.isfinite(each.row_features(0.0)).all()

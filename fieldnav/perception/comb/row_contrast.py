@@ -29,7 +29,7 @@ ALMOST_NOTHING = 1e-6
 
 
 @dataclass(frozen=True, slots=True)
-class Stand:
+class RowContrast:
     """How each row stands out, shape (rows,) each, and all of them.
 
     on: mean strength on a row; contrast: of that against what lies between, -1 to 1; evenness: share of six
@@ -73,7 +73,7 @@ def placed(candidate: Candidate, width_px: int, height_px: int) -> PlacedRows:
     return PlacedRows(place, spacing.clip(NARROWEST, WIDEST))
 
 
-def stand_of(rows: PlacedRows, witness: Witness) -> Stand:
+def contrast_of(rows: PlacedRows, witness: Witness) -> RowContrast:
     """How the rows stand out of what a witness shows."""
     x = rows.place[:, :, None] + ACROSS * rows.spacing[:, None]
     inside = (x >= 0) & (x < 1)
@@ -82,7 +82,7 @@ def stand_of(rows: PlacedRows, witness: Witness) -> Stand:
     between = _mean(value[:, :, BETWEEN], inside[:, :, BETWEEN], 2)
     of_row, beside = _mean(on, rows.inside, 1), _mean(between, rows.inside, 1)
     profile = _mean(value, inside, (0, 1))
-    return Stand(
+    return RowContrast(
         of_row,
         (of_row - beside) / (of_row + beside + SOME),
         _evenness(on - between, rows.inside),
