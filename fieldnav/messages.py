@@ -202,6 +202,12 @@ class RowLine:
     x_bottom_px: float
     confidence: float = 1.0
 
+    def at(self, y_px: float, last_px: float) -> float:
+        """Where the row lies at one image row; last_px: the last of them."""
+        if not y_px:
+            return self.x_top_px
+        return self.x_top_px + (self.x_bottom_px - self.x_top_px) * y_px / last_px
+
 
 @dataclass(frozen=True, slots=True)
 class Centres:

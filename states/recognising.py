@@ -37,7 +37,7 @@ class Recognising:
             return rows, ()
         line = row_in_view(rows, rows.rows[newest].across_m, self._crop, camera)
         assert line, "it was chosen for being in view"
-        features = describe(frame.image, line, self._crop, camera, 0.0, camera.centre_y_px)
+        features = describe(frame.image, line, self._crop, camera, 0.0, camera.ground_middle_px)
         like = likeness(switch.reference, features, self._crop) if switch.reference else None
         if known:
             if like is None or not like.is_new:

@@ -59,7 +59,7 @@ class Sampling:
         switch = self._lane.switching
         outward = self._task.outward(frame.camera)
         outermost = rows[0] if outward > 0 else rows[-1]
-        switch.reference = describe(frame.image, outermost, crop, camera, 0.0, camera.centre_y_px)
+        switch.reference = describe(frame.image, outermost, crop, camera, 0.0, camera.ground_middle_px)
         switch.crossing = begin(rows, HEADING_SD[crop.control.law], outward, crop, camera)
         switch.exposed = seen.exposed_at(frame)
         evidence = (

@@ -1,6 +1,7 @@
 """`fieldnav count`: the rows that pass sideways in a folder of frames or a video."""
 
 from collections.abc import Sequence
+from math import ceil
 from typing import TYPE_CHECKING, Annotated
 
 import typer
@@ -98,13 +99,16 @@ def _taken_in(
 
     counter: RowCounter | None = None
     dark: list[bool] = []
+    top = 0
     for name, image in frames.images:
         if counter is None:
             height, width = image.shape[:2]
             size = {"width_px": width, "height_px": height}
             pinhole = None if camera is None else revised(camera, size, name).pinhole()
-            counter = RowCounter(crop, pinhole)
-        counter.add(image)
+            top = 0 if pinhole is None else ceil(pinhole.top_px)
+            # With the horizon in view the ground alone is looked at; how rows run together there is found.
+            counter = RowCounter(crop, None if top else pinhole)
+        counter.add(image[top:])
         dark.append(bool(unlit(image)))
         tell(PART, len(dark), max(frames.expected, len(dark)))
     assert counter is not None, "a source without frames is refused where it is read"

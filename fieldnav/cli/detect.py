@@ -40,7 +40,8 @@ def detect(
 
     A row is the line x = x_top + (x_bottom - x_top) * y / (height - 1), in pixels.
     Its angle is from the image's vertical, positive clockwise.
-    With --json it is also a curve: "points", from the upper edge to the lower.
+    With --json it is also a curve: "points", from the upper edge to the lower,
+    and of a robot whose camera has the horizon in view from where ground counts.
 
     Without --robot the camera is estimated: its tilt from how the rows run together,
     and with --crop also its height, from how far apart they are.

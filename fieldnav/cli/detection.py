@@ -1,7 +1,7 @@
 """The rows of one picture: with the robot's camera, or with one that the picture itself must tell of."""
 
 from dataclasses import dataclass
-from math import atan2, cos, degrees, tan
+from math import atan2, cos, degrees
 from time import perf_counter
 
 from fieldnav.cli.pictures import read_picture
@@ -64,7 +64,7 @@ class Detection:
         camera = self.camera
         if camera is None or cos(camera.tilt_rad) < STRAIGHT_DOWN:
             return None
-        return camera.centre_y_px - camera.focal_px * tan(camera.tilt_rad)
+        return camera.horizon_px
 
     @property
     def finding(self) -> Finding:
@@ -79,7 +79,7 @@ class Detection:
 def camera_of(image: Image, path: str, robot: Robot) -> Pinhole:
     """The robot's front camera as if its pictures had this size: the field of view stays.
 
-    Raises SettingsError for a size that no camera has, and for one so tall that it shows the horizon.
+    Raises SettingsError for a size that no camera has, and for one too tall with the horizon in view.
     """
     size = {"width_px": image.shape[1], "height_px": image.shape[0]}
     return revised(robot.cameras.front, size, path).pinhole()

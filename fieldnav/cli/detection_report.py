@@ -17,7 +17,7 @@ TILT_DIGITS, HEIGHT_DIGITS = 1, 2
 NO_FIELD = 0.1
 """Probability of a field below which there is none in view: of photographs of fields 2 in 100 get less."""
 CURVE_POINTS = 9
-"""Of a row, from the upper edge to the lower: a bend between two of them is less than a pixel."""
+"""Of a row, from the upper end to the lower: a bend between two of them is less than a pixel."""
 
 
 def document(found: Detection) -> dict[str, Any]:
@@ -112,9 +112,9 @@ def camera_line(found: Detection) -> str:
 
 
 def _points(path_px: Floats, height_px: int) -> list[list[float]]:
-    """A row's curve at image rows evenly spaced from the upper edge to the lower."""
+    """A row's curve at image rows evenly spaced from the upper edge of the ground to the lower edge."""
     x, y = path_px.T
-    at = np.linspace(0, height_px - 1, CURVE_POINTS)
+    at = np.linspace(y[0], height_px - 1, CURVE_POINTS)
     points = np.stack([np.interp(at, y, x), at], axis=-1)
     return [[float(value) for value in point] for point in points.round(PIXEL_DIGITS)]
 

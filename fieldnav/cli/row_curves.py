@@ -59,7 +59,7 @@ def below_horizon(path_px: Floats, found: Detection) -> Floats:
     horizon = found.horizon_px
     if horizon is None:
         return path_px
-    least = max(0.0, horizon + BELOW_HORIZON * found.height_px)
+    least = max(0.0, horizon + BELOW_HORIZON * found.height_px, float(path_px[0, 1]))
     kept: NDArray[np.bool_] = path_px[:, 1] > least
     first = [np.interp(least, path_px[:, 1], path_px[:, 0]), least]
     return np.concatenate([[first], path_px[kept]])
@@ -69,10 +69,13 @@ def _draw_lane(axes: Axes, found: Detection) -> None:
     """The lane's rows as broad pale bands beneath all else; dashed where a row was filled in, not seen."""
     if found.view.lane is None:
         return
-    ends = [0, found.height_px - 1]
+    last = found.height_px - 1
+    upper = max(0.0, found.horizon_px or 0.0)
     for row in found.view.lane.rows:
         style = "solid" if row.confidence > 0 else DASHES
-        (band,) = axes.plot([row.x_top_px, row.x_bottom_px], ends, color=LANE, linestyle=style, zorder=2)
+        (band,) = axes.plot(
+            [row.at(upper, last), row.x_bottom_px], [upper, last], color=LANE, linestyle=style, zorder=2
+        )
         band.set(linewidth=LANE_WIDTH, alpha=LANE_STRENGTH)
 
 
@@ -91,8 +94,9 @@ def _draw_horizon(axes: Axes, found: Detection) -> None:
     if y is None or not 0 <= y < found.height_px:
         return
     axes.axhline(y, color=LIGHT, linewidth=THIN, linestyle=DASHES, path_effects=edged(2 * THIN), zorder=4)
-    (ring,) = axes.plot(_vanishing_x(found, y), y, marker="o", markerfacecolor="none", zorder=5)
-    ring.set(markersize=VANISHING_SIZE, markeredgecolor=LIGHT, path_effects=edged(2 * THIN))
+    if len(found.view.paths_px):
+        (ring,) = axes.plot(_vanishing_x(found, y), y, marker="o", markerfacecolor="none", zorder=5)
+        ring.set(markersize=VANISHING_SIZE, markeredgecolor=LIGHT, path_effects=edged(2 * THIN))
     axes.annotate(
         "horizon",
         (1, y),
@@ -109,7 +113,8 @@ def _draw_horizon(axes: Axes, found: Detection) -> None:
 
 def _vanishing_x(found: Detection, horizon_px: float) -> float:
     """Where the rows' upper ends, carried on straight, meet the horizon."""
-    y = horizon_px + NEAR_HORIZON * found.height_px
+    begins = max(horizon_px, *(float(path[0, 1]) for path in found.view.paths_px))
+    y = begins + NEAR_HORIZON * found.height_px
     x = np.stack([np.interp(y, path[:, 1], path[:, 0]) for path in found.view.paths_px])
     slope = (x[:, 1] - x[:, 0]) / (y[1] - y[0])
     return float(np.median(x[:, 0] + slope * (horizon_px - y[0])))

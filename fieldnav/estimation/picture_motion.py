@@ -80,7 +80,11 @@ class Delay:
 class PictureMotion:
     """What is believed of one camera's pictures."""
 
-    def __init__(self) -> None:
+    def __init__(self, shake_share: float = 1.0) -> None:
+        """shake_share: how far pitch moves the ground along the view, against one that looks down."""
+        further = np.array([[shake_share], [1.0]]) ** 2
+        self._shaking_m2: Floats = SHAKING_M2 * further
+        self._path_m2_per_m: Floats = PATH_M2_PER_M * further
         likely = np.exp(-0.5 * (DELAYS_S / LIKELY_DELAY_S) ** 2)
         self._weights: Floats = np.concatenate([likely / likely.sum(), np.zeros(len(Lie))])
         self._raise(UNLIKELY)
@@ -88,7 +92,7 @@ class PictureMotion:
         self._lag: Floats = np.zeros((2, _ALL))
         self._scale2: Floats = np.full((2, _ALL), SCALE_SD**2)
         self._both: Floats = np.zeros((2, _ALL))
-        self._lag2: Floats = np.tile(SHAKING_M2, _ALL)
+        self._lag2: Floats = np.tile(self._shaking_m2, _ALL)
 
     @property
     def delay(self) -> Delay:
@@ -111,7 +115,7 @@ class PictureMotion:
 
     def interrupted(self) -> None:
         """Pictures were left out: the ground is carried along from the next one, all else holds."""
-        self._lag[:], self._lag2[:], self._both[:] = 0.0, SHAKING_M2, 0.0
+        self._lag[:], self._lag2[:], self._both[:] = 0.0, self._shaking_m2, 0.0
 
     def paused(self) -> None:
         """Nobody looked for a while."""
@@ -143,7 +147,7 @@ class PictureMotion:
         moved_m = np.hypot(*(after_m - before_m)[:, 0])
         came = self._mix(before_m, after_m, np.asarray(seen_m), apart_s)
         self._scale2 += SCALE2_PER_M * moved_m
-        self._lag2 += PATH_M2_PER_M * moved_m
+        self._lag2 += self._path_m2_per_m * moved_m
         gains = self._correct(OUTLIERS / reach_m2)
         believed = float(np.log(came @ np.exp(gains - gains.max()))) + float(gains.max())
         unrelated = min(chance - np.log(reach_m2), believed + MAX_CHANCE)
@@ -199,7 +203,7 @@ class PictureMotion:
         One pair of pictures may be taken wrongly, for plants a plant's spacing apart: it then corrects
         little, and speaks little against any hypothesis.
         """
-        expected = self._lag2 + SHAKING_M2
+        expected = self._lag2 + self._shaking_m2
         fits = np.exp((-0.5 * (self._lag**2 / expected + np.log(2 * np.pi * expected))).sum(axis=0))
         share = fits / (fits + outlier_per_m2)
         gain_scale, gain_lag = share * self._both / expected, share * self._lag2 / expected
@@ -216,7 +220,7 @@ class PictureMotion:
         scale = (self._scale[:, :_N] * weights).sum(axis=1, keepdims=True)
         self._scale[:, low], self._scale2[:, low] = scale, OTHER_SCALE_SD**2
         self._lag[:, low], self._both[:, low] = 0.0, 0.0
-        self._lag2[:, low] = SHAKING_M2
+        self._lag2[:, low] = self._shaking_m2
 
     def _raise(self, least: float) -> None:
         """No lie becomes less likely than that, nor all delays together."""

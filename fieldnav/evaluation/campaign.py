@@ -68,7 +68,7 @@ def _run(
     if not jobs:
         return
     with _pool(min(processes, len(jobs))) as pool:
-        with _signals_held_back():
+        with _interruptions_put_off():
             waiting = {pool.submit(_once, work, job): index for index, job in jobs.items()}
         for done in as_completed(waiting):
             error = done.exception()
@@ -106,13 +106,23 @@ def _pool(processes: int) -> Iterator[ProcessPoolExecutor]:
 
 
 @contextmanager
-def _signals_held_back() -> Iterator[None]:
-    """Those of a terminal come later, also to a process that is started here and does not ignore them yet."""
+def _interruptions_put_off() -> Iterator[None]:
+    """The signals of a terminal come later, also to a process started here that does not ignore them yet.
+
+    A block holds for this thread and for what it starts. A signal that another thread takes, one of numpy's
+    say, would interrupt this one in the middle of a start all the same: it is noted, and raised afterwards.
+    """
+    noted: list[int] = []
+    handlers = {number: signal.signal(number, lambda it, _: noted.append(it)) for number in OF_A_TERMINAL}
     before = signal.pthread_sigmask(signal.SIG_BLOCK, OF_A_TERMINAL)
     try:
         yield
     finally:
         signal.pthread_sigmask(signal.SIG_SETMASK, before)
+        for number, handler in handlers.items():
+            signal.signal(number, handler)
+        for taken in noted:
+            signal.raise_signal(taken)
 
 
 def _leave_interruptions_to_the_parent() -> None:

@@ -33,7 +33,10 @@ BAR_BRIGHTNESS = 0.3
 
 @dataclass(frozen=True, slots=True)
 class OverlayView:
-    """One picture and what was made of it. `feature` is the average line that the robot steers by."""
+    """One picture and what was made of it. `feature` is the average line that the robot steers by.
+
+    sky_px: how many image rows look above the horizon; no row is drawn there.
+    """
 
     image: Image
     state: str
@@ -45,6 +48,7 @@ class OverlayView:
     command: Twist = STANDSTILL
     lane: str = ""
     note: str = ""
+    sky_px: float = 0.0
 
 
 def draw_overlay(view: OverlayView) -> Image:
@@ -52,12 +56,12 @@ def draw_overlay(view: OverlayView) -> Image:
     canvas = view.image.copy()
     thickness = max(1, round(canvas.shape[1] / 426))
     for row in view.rows:
-        _line(canvas, row, ROW if row.confidence > 0 else HELD_ROW, thickness)
+        _line(canvas, row, view.sky_px, ROW if row.confidence > 0 else HELD_ROW, thickness)
     if view.centres is not None:
         for x, y in np.rint(view.centres.position_px).astype(int).tolist():
             cv2.circle(canvas, (x, y), 2 * thickness, CENTRE, -1, cv2.LINE_AA)
     if view.feature is not None:
-        _line(canvas, view.feature, FEATURE, 2 * thickness)
+        _line(canvas, view.feature, view.sky_px, FEATURE, 2 * thickness)
     _head_up_display(canvas, view, thickness)
     return canvas
 
@@ -91,8 +95,9 @@ class OverlayWriter:
         self.close()
 
 
-def _line(canvas: Image, row: RowLine, colour: tuple[int, int, int], thickness: int) -> None:
-    top, bottom = (round(row.x_top_px), 0), (round(row.x_bottom_px), canvas.shape[0] - 1)
+def _line(canvas: Image, row: RowLine, from_px: float, colour: tuple[int, int, int], thickness: int) -> None:
+    last = canvas.shape[0] - 1
+    top, bottom = (round(row.at(from_px, last)), round(from_px)), (round(row.x_bottom_px), last)
     cv2.line(canvas, top, bottom, colour, thickness, cv2.LINE_AA)
 
 

@@ -10,6 +10,7 @@ from fieldnav import __version__
 from fieldnav.errors import SettingsError
 from fieldnav.journal.directory import next_number
 from fieldnav.journal.files import alone_in, write_atomically
+from fieldnav.messages import CameraName
 from fieldnav.settings.crop import CropProfile
 from fieldnav.settings.documents import parse_mapping, read_text, written
 from fieldnav.settings.field import FieldSettings
@@ -62,6 +63,14 @@ def read_settings(path: Path) -> Settings:
     crop = checked(CropProfile, _part(document, "crop", label), f"{label}: crop")
     robot = checked(Robot, _part(document, "robot", label), f"{label}: robot")
     return Settings(crop, robot, dict(_part(document, "options", label)))
+
+
+def skies_px(path: Path) -> Mapping[CameraName, float]:
+    """How many image rows of each camera of a run look above the horizon; {} where nothing says so."""
+    try:
+        return read_settings(path).robot.cameras.skies_px()
+    except SettingsError:
+        return {}
 
 
 def _part(document: Mapping[Hashable, Any], name: str, label: str) -> Mapping[Any, Any]:

@@ -15,11 +15,13 @@ from fieldnav.perception.ground_view import GroundMap, GroundView, SeenMotion
 STANDING_M = 0.02
 """Less than this within the longest delay is no motion: a picture of it shows none either."""
 SHAKE_M = 0.05
-"""By which shaking moves the ground from one picture to the next, at most."""
+"""By which shaking moves the ground from one picture to the next, at most, for a camera that looks down."""
 MAX_MOVED_M = 0.11
 """After more, plants one spacing apart may be taken for each other."""
 MAX_APART_S = 0.5
 """Pictures further apart are not compared: a camera that does not guide is not looked at."""
+EDGE_CELLS = 2
+"""Of a map, from the edge of the search."""
 USUAL_LOSS_PER_S, LEARNT = 0.9, 0.05
 """Of likeness, from one picture to the next, with the time between them; and how fast a camera's own is
 learnt."""
@@ -56,7 +58,8 @@ class MotionMonitor:
     def __init__(self, view: GroundView, max_delay_s: float) -> None:
         """max_delay_s: pictures that are taken longer than this before their stamp are not gone by."""
         self._view, self._max_delay_s = view, max_delay_s
-        self._belief, self._speed = PictureMotion(), SpeedChange()
+        self._shake_m = SHAKE_M * view.shake_share
+        self._belief, self._speed = PictureMotion(view.shake_share), SpeedChange()
         self._loss_per_s = USUAL_LOSS_PER_S
 
     @property
@@ -81,7 +84,7 @@ class MotionMonitor:
 
     def forget(self) -> None:
         """Begin anew: a person has seen to the camera."""
-        self._belief, self._speed = PictureMotion(), SpeedChange()
+        self._belief, self._speed = PictureMotion(self._view.shake_share), SpeedChange()
 
     def interrupted(self) -> None:
         """Pictures or the wheels' word were missing for a moment."""
@@ -125,7 +128,7 @@ class MotionMonitor:
         if not seen.found:
             self._belief.lost(chance)
             return True
-        reach_m2 = (2 * (moved_m + SHAKE_M)) ** 2
+        reach_m2 = (2 * (moved_m + self._shake_m)) ** 2
         seen_m = np.array([seen.ahead_m, seen.left_m])
         self._belief.seen(before_m, now_m, seen_m, apart_s, reach_m2, chance)
         return True
@@ -144,9 +147,15 @@ class MotionMonitor:
         return log(usual / CHANCE_LOSSES) + loss / usual
 
     def _seen(self, before: View, now: View, moved_m: float) -> SeenMotion | None:
-        if moved_m > min(MAX_MOVED_M, self._view.max_motion_m - SHAKE_M):
+        if moved_m > min(MAX_MOVED_M, self._view.max_motion_m - self._shake_m):
             return None
-        return self._view.motion(before.ground, now.ground, moved_m + SHAKE_M)
+        seen = self._view.motion(before.ground, now.ground, moved_m + self._shake_m)
+        return None if seen is not None and self._may_be_further(seen, moved_m) else seen
+
+    def _may_be_further(self, seen: SeenMotion, moved_m: float) -> bool:
+        """Where pitch moves the ground by decimetres, what is found at the search's edge lies beyond."""
+        edge_m = moved_m + self._shake_m - EDGE_CELLS * self._view.cell_m
+        return self._view.shake_share > 1 and abs(seen.ahead_m) > edge_m
 
     def _views(
         self, before_s: float, now_s: float, camera: CameraName, track: Track

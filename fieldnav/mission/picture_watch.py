@@ -1,5 +1,7 @@
 """Whether a camera's pictures can be gone by: lit, alive, in colour, and showing what must be in view."""
 
+from math import ceil
+
 import cv2
 import numpy as np
 from numpy.typing import NDArray
@@ -64,8 +66,9 @@ class PictureWatch:
         self._check_size(frame)
         sample = np.ascontiguousarray(frame.image[::EVERY_PX, ::EVERY_PX])
         pose = track.at(frame.stamp_s)
-        found = self._unlit(frame, float(sample.mean())) or self._frozen(frame, sample, pose)
-        found = found or self._empty(frame, sample) or self._shown_before(frame, sample, pose)
+        ground = sample[ceil(self._camera.top_px / EVERY_PX) :]
+        found = self._unlit(frame, float(ground.mean())) or self._frozen(frame, sample, pose)
+        found = found or self._empty(frame, ground) or self._shown_before(frame, sample, pose)
         if not heard:
             self._before = None  # what the wheels do is not known: nothing can be held against it
             self.motion.interrupted()
@@ -123,7 +126,7 @@ class PictureWatch:
         """Crop is told from soil by its colour: a grey picture shows no crop, and that is no sign of its
         end."""
         name = f"{frame.camera.value} camera"
-        seen = detail(frame.image)
+        seen = detail(frame.image[ceil(self._camera.top_px) :])
         if seen < DETAIL:
             said = f"{name}: nothing can be told apart in it, detail {seen:.1f}, limit {DETAIL:.1f}"
             return Trouble(FaultKind.CAMERA_BLIND, said)
@@ -143,7 +146,9 @@ class PictureWatch:
             self.motion.paused()
         if before is not None:
             moved_m = track.at(before.stamp_s).distance_m(pose)
-            if moved_m < COMPARED_M and frame.stamp_s - before.stamp_s < COMPARED_S:
+            # Where pitch moves the ground by decimetres, a picture is held against the very next one.
+            soon = self._view.shake_share == 1 and frame.stamp_s - before.stamp_s < COMPARED_S
+            if moved_m < COMPARED_M and soon:
                 return None
         now = View(self._view.look(frame.image), frame.stamp_s)
         if before is None:

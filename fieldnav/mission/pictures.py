@@ -27,7 +27,7 @@ class OverlayObserver:
     def __init__(self, path: Path, robot: Robot, lanes: int) -> None:
         camera = robot.cameras.front
         size_px = (round(camera.width_px * SHOWN_AS), round(camera.height_px * SHOWN_AS))
-        self._lanes = lanes
+        self._lanes, self._skies_px = lanes, robot.cameras.skies_px()
         self._writer = OverlayWriter(path, size_px, camera.rate_hz)
 
     def watch(self, tick: Tick) -> None:
@@ -46,6 +46,7 @@ class OverlayObserver:
             command=tick.passed.motion.twist if not tick.passed.motion.hold else Twist(),
             lane=f"lane {tick.lane} of {self._lanes}",
             note=tick.step.reason,
+            sky_px=self._skies_px[sight.frame.camera],
         )
         self._writer.write(draw_overlay(view))
 

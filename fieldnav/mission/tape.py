@@ -34,6 +34,7 @@ class Tape:
         self._begun_utc = begun_utc
         self._round: TapedRound | None = None
         self._number = 0
+        self._skies_px: dict[CameraName, float] = {}
 
     @contextmanager
     def round(
@@ -105,10 +106,11 @@ class Tape:
         if self._recorder.failure is not None:
             said, self._recorder = self._recorder.failure, None
             raise OutputError(said)
-        self._recorder.put(TapedTick.of(tick, self._begun_utc))
+        self._recorder.put(TapedTick.of(tick, self._begun_utc, self._skies_px))
 
     def sees(self, camera: CameraName, pinhole: Pinhole) -> None:
         """How a camera sees."""
+        self._skies_px[camera] = pinhole.sky_px
         if self._recorder is not None:
             self._recorder.put(TapedPinhole(camera, pinhole, self._begun_utc))
 

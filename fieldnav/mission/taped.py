@@ -1,7 +1,7 @@
 """What a tape hands to the recorder; it becomes messages on the recorder's own thread."""
 
 import json
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from datetime import datetime, timedelta
 from typing import Any, Self
@@ -96,24 +96,26 @@ class TapedFrame:
 class TapedTick:
     """How the mission stood after a tick, and, on a fresh look, what was judged and seen.
 
-    The picture is not held while this waits; size_px: its width and height.
+    The picture is not held while this waits; size_px: its width and height; sky_px: see `overlay`.
     """
 
     tick: Tick
     begun_utc: datetime
     size_px: tuple[int, int]
+    sky_px: float = 0.0
     size: int = SMALL_BYTES
     picture: bool = False
 
     @classmethod
-    def of(cls, tick: Tick, begun_utc: datetime) -> Self:
-        """The tick, without its picture."""
+    def of(cls, tick: Tick, begun_utc: datetime, skies_px: Mapping[CameraName, float]) -> Self:
+        """The tick, without its picture; skies_px: of the cameras in whose pictures some is."""
         step, sight = tick.step, tick.step.sight
         if sight is None:
             return cls(tick, begun_utc, (0, 0))
         height, width = sight.frame.image.shape[:2]
+        sky_px = skies_px.get(sight.frame.camera, 0.0)
         blind = replace(sight, frame=replace(sight.frame, image=NO_IMAGE, jpeg=None))
-        return cls(replace(tick, step=replace(step, sight=blind)), begun_utc, (width, height))
+        return cls(replace(tick, step=replace(step, sight=blind)), begun_utc, (width, height), sky_px)
 
     def messages(self) -> Iterator[Message]:
         tick, sight = self.tick, self.tick.step.sight
@@ -128,7 +130,9 @@ class TapedTick:
             frame = sight.frame
             seen_utc = self.begun_utc + timedelta(seconds=frame.stamp_s)
             line = sight.feature.line(*self.size_px) if sight.feature else None
-            drawn = overlay(seen_utc, self.size_px, sight.rows, sight.centres, line, caption(tick))
+            drawn = overlay(
+                seen_utc, self.size_px, sight.rows, sight.centres, line, caption(tick), self.sky_px
+            )
             yield Message(Topic.overlay(frame.camera), frame.stamp_s, drawn, frame.sequence)
 
 

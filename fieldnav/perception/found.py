@@ -15,7 +15,7 @@ class Found:
     """Rows from left to right.
 
     lines: straight ones, each with its confidence; paths_px: the same rows as curves, shape (rows, points,
-    2), x and y in pixels from the upper edge to the lower.
+    2), x and y in pixels from the upper edge of the ground to the lower edge.
     """
 
     lines: tuple[RowLine, ...]

@@ -30,14 +30,17 @@ class GroundPlants:
 
 
 def on_ground(centres: Centres, crop: CropProfile, camera: Pinhole) -> GroundPlants:
-    """Where the plants of a frame stand; those above the horizon are far off."""
+    """Where the plants of a frame stand; those above the ground that counts are far off."""
     plane = canopy_plane(camera, crop)
     y = centres.position_px[:, 1]
     across = plane.pixels_per_metre(y).clip(1)
     along = across * across * plane.height_m / plane.focal_px
     whole_px = FULL_COVER * crop.plants.canopy_width_m**2 * across * along
+    position_m = np.nan_to_num(plane.to_ground(centres.position_px), nan=FAR_M)
+    if plane.top_px:
+        position_m[y < plane.top_px] = FAR_M
     return GroundPlants(
-        np.nan_to_num(plane.to_ground(centres.position_px), nan=FAR_M),
+        position_m,
         half_width_px(y, crop, camera) / across,
         np.asarray((centres.area_px / whole_px).clip(LEAST_WEIGHT, 1.0)),
     )

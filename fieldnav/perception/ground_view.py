@@ -15,7 +15,9 @@ Map = NDArray[np.float32]
 """Shape (h, w), one value a cell of ground: row 0 is furthest ahead of the camera, column 0 furthest left."""
 
 MAP_CELLS = 8000  # of the map: a cell is then some 1 cm, a third of a plant
-UPPER_EDGE = 0.2  # of the picture's height: what lies above is far away, and small
+UPPER_EDGE = 0.2  # of the ground's height in the picture: what lies above is far away, and small
+OBLIQUE_RAD = 0.9  # below the horizontal: a camera that looks less steeply sees far, where pitch moves most
+OBLIQUE_LENGTH_M = 1.0  # of such a camera's map: three times what shaking moves it
 SMOOTH_CELLS = 0.8  # standard deviation: sensor noise is gone, plants are not
 COARSE_CELLS = (
     21  # side of the square whose mean is taken away: light and vignetting do not move with the ground
@@ -70,19 +72,25 @@ class SeenMotion:
 
 
 class GroundView:
-    """Maps the ground in front of one camera, and finds the ground of one map again in another."""
+    """Maps the ground in front of one camera, and finds the ground of one map again in another.
+
+    shake_share: how far the robot's pitch moves the ground along the map, against a camera that looks down.
+    """
 
     def __init__(self, camera: Pinhole) -> None:
         bottom_px, right_px = camera.height_px - 1.0, camera.width_px - 1.0
-        corners = np.array(
-            [[0.0, bottom_px], [right_px, bottom_px], [camera.centre_x_px, UPPER_EDGE * bottom_px]]
-        )
+        upper_px = camera.top_px + UPPER_EDGE * (bottom_px - camera.top_px)
+        corners = np.array([[0.0, bottom_px], [right_px, bottom_px], [camera.centre_x_px, upper_px]])
         left, _, upper = camera.to_ground(corners)
         near_m, half_m = float(left[0]), float(abs(left[1]))
-        # A camera that looks to the horizon would map a hundred metres: as far as it is wide is enough.
-        length_m = min(float(np.nan_to_num(upper[0] - near_m, nan=np.inf)), 2 * half_m)
+        # A camera that looks far would map many metres: as far as it is wide is enough, and less where pitch
+        # moves what is far away.
+        far_m = float(np.nan_to_num(upper[0] - near_m, nan=np.inf))
+        oblique = camera.tilt_rad < OBLIQUE_RAD
+        length_m = min(far_m, 2 * half_m, OBLIQUE_LENGTH_M if oblique else np.inf)
         self.cell_m = sqrt(2 * half_m * length_m / MAP_CELLS)
         self.middle_m = near_m + length_m / 2
+        self.shake_share = _shake_share(camera, self.middle_m - camera.forward_m) if oblique else 1.0
         self._size = (round(2 * half_m / self.cell_m), round(length_m / self.cell_m))
         cells = np.array([[0, 0], [1, 0], [1, 1], [0, 1]], np.float32) * (np.array(self._size) - 1)
         ground = np.stack(
@@ -116,9 +124,9 @@ class GroundView:
         it shows too little.
         """
         reach = min(ceil(max_m / self.cell_m), min(self._size) // 3)
-        if min(before.green.contrast, after.green.contrast) >= MIN_GREEN:
+        if self._contrast(before.green, after.green, reach) >= MIN_GREEN:
             return self._found(before.green, after.green, reach)
-        if min(before.grey.contrast, after.grey.contrast) < MIN_GREY:
+        if self._contrast(before.grey, after.grey, reach) < MIN_GREY:
             return None
         soil = replace(self._found(before.grey, after.grey, reach), by_plants=False)
         still = max(abs(soil.ahead_m), abs(soil.left_m)) < STILL_CELLS * self.cell_m
@@ -135,18 +143,35 @@ class GroundView:
         there = before.vegetation[
             max(-down, 0) : height + min(-down, 0), max(-right, 0) : width + min(-right, 0)
         ]
-        edge = ceil(EDGE_M / self.cell_m)  # shaking brings plants over the map's edge
+        edge = ceil(self.shake_share * EDGE_M / self.cell_m)  # shaking brings plants over the map's edge
         expected = _cover(there[edge:-edge, edge:-edge])
         return _cover(here) / expected if expected >= MIN_COVER else None
 
+    def _contrast(self, before: FineMap, after: FineMap, reach: int) -> float:
+        """What both maps show; where shaking moves the ground far, within the part that is looked for."""
+        least = min(before.contrast, after.contrast)
+        if self.shake_share == 1:
+            return least
+        return min(least, float(cv2.meanStdDev(_middle(before, reach))[1][0, 0]))
+
     def _found(self, before: FineMap, after: FineMap, reach: int) -> SeenMotion:
-        height, width = before.cells.shape
-        middle = np.ascontiguousarray(before.cells[reach : height - reach, reach : width - reach])
+        middle = _middle(before, reach)
         alike = np.asarray(cv2.matchTemplate(after.cells, middle, cv2.TM_CCOEFF_NORMED), np.float32)
         _, likeness, _, (x, y) = cv2.minMaxLoc(alike)
         down = y + _summit(alike[:, x], y) - reach
         right = x + _summit(alike[y], x) - reach
         return SeenMotion(float(down * self.cell_m), float(right * self.cell_m), float(likeness))
+
+
+def _middle(fine: FineMap, reach: int) -> Map:
+    """What of a map is looked for in another one: all but what motion may bring out of view."""
+    height, width = fine.cells.shape
+    return np.ascontiguousarray(fine.cells[reach : height - reach, reach : width - reach])
+
+
+def _shake_share(camera: Pinhole, ahead_m: float) -> float:
+    """How far pitch moves the ground in view, against a camera one metre up that looks straight down."""
+    return (camera.height_m**2 + ahead_m**2) / camera.height_m
 
 
 def _cover(vegetation: NDArray[np.uint8]) -> float:

@@ -120,8 +120,9 @@ def _line_at(structure: FieldStructure, trough: np.int64, widest_px: float, find
 
 
 def _same(one: Floats, other: Floats, widest_px: float, camera: Pinhole) -> bool:
-    """Whether two lines are less than half a window apart, on average over the image's height."""
-    tops = [line[0] + np.tan(np.radians(line[1])) * (camera.height_px - 1) for line in (one, other)]
+    """Whether two lines are less than half a window apart, on average over the ground's height."""
+    height_px = camera.height_px - 1 - camera.top_px
+    tops = [line[0] + np.tan(np.radians(line[1])) * height_px for line in (one, other)]
     return bool((abs(one[0] - other[0]) + abs(tops[0] - tops[1])) / 2 <= widest_px)
 
 

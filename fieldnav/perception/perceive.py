@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from fieldnav.messages import Centres, Floats, Image, RowLine
 from fieldnav.perception.canopy import canopy_plane
 from fieldnav.perception.comb.search_range import range_of
-from fieldnav.perception.finders import find_rows
+from fieldnav.perception.finders import find_rows, in_whole
 from fieldnav.perception.found import Found
 from fieldnav.perception.ground_plants import on_ground
 from fieldnav.perception.lane import LaneFit, lane_rows
@@ -22,9 +22,9 @@ class View:
     """What one frame shows.
 
     cover and centres: its vegetation and the plants; lines: every row it shows, left to right; paths_px: the
-    same rows as curves, shape (rows, points, 2), x and y from the upper edge to the lower; lane: the rows
-    under the robot, None when there are none; field: the probability that the picture shows a field of rows
-    at all, None where only vegetation was looked at.
+    same rows as curves, shape (rows, points, 2), x and y from the upper edge of the ground to the lower edge;
+    lane: the rows under the robot, None when there are none; field: the probability that the picture shows a
+    field of rows at all, None where only vegetation was looked at.
     """
 
     cover: Cover
@@ -49,15 +49,17 @@ def find(
     picture that may show no field at all, where rows must be borne out by the network too (`witnessed`), and
     there is no lane without any.
     """
-    cover = vegetation_of(image, crop.vegetation)
+    cover = vegetation_of(image, crop.vegetation, camera.top_px)
     centres = plants_in(cover, crop.vegetation, camera)
     field = None
     if not both_witnesses or crop.finding.method is not RowFinder.COMB:
         found = find_rows(cover, centres, crop, camera, pose_known)
     else:
-        tried = range_of(canopy_plane(camera, crop), crop.rows.spacing_m, pose_known)
-        witnessed = find_witnessed(image, cover, crop.vegetation, tried)
-        found, field = witnessed.found, witnessed.field
+        plane = canopy_plane(camera, crop)
+        tried = range_of(plane, crop.rows.spacing_m, pose_known)
+        ground, top_px = cover.below(plane.top_px)
+        witnessed = find_witnessed(image[int(top_px) :], ground, crop.vegetation, tried)
+        found, field = in_whole(witnessed.found, ground.height_px, top_px), witnessed.field
     sure = found.sure()
     lane = _lane(found, centres, crop, camera, widest_offset_m) if not both_witnesses or sure.lines else None
     return View(cover, centres, sure.lines, sure.paths_px, lane, field)

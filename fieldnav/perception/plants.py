@@ -11,12 +11,12 @@ from fieldnav.pinhole import Pinhole
 from fieldnav.settings.crop import Vegetation
 
 CLOSED = 0.9
-"""Share of the picture: a canopy closed over the soil shows no rows."""
+"""Share of the ground in the picture: a canopy closed over the soil shows no rows."""
 
 
 def find_plants(image: Image, vegetation: Vegetation, camera: Pinhole) -> Centres:
     """The plants of an image; see `plants_in`."""
-    return plants_in(vegetation_of(image, vegetation), vegetation, camera)
+    return plants_in(vegetation_of(image, vegetation, camera.top_px), vegetation, camera)
 
 
 def plants_in(cover: Cover, vegetation: Vegetation, camera: Pinhole) -> Centres:
@@ -27,7 +27,7 @@ def plants_in(cover: Cover, vegetation: Vegetation, camera: Pinhole) -> Centres:
     camera must be that of the image: pixels of both are the same.
     """
     mask = cover.mask
-    if cv2.countNonZero(mask) > CLOSED * mask.size:
+    if cv2.countNonZero(mask) > CLOSED * cover.ground_share * mask.size:
         return NO_PLANTS
     scale = np.array([cover.width_px / mask.shape[1], cover.height_px / mask.shape[0]])
     labels, found = of_mask(mask)

@@ -57,7 +57,7 @@ def describe(
     image: shape (h, w, 3), uint8, blue green red.
     """
     last = camera.height_px - 1.0 if bottom_px is None else bottom_px
-    ends = np.array([max(top_px, 0.0), min(last, camera.height_px - 1.0)])
+    ends = np.array([max(top_px, camera.top_px), min(last, camera.height_px - 1.0)])
     corners = _strip_corners(row, ends, crop, camera)
     left, upper = np.floor(corners.min(axis=0)).clip(0).astype(int)
     right, lower = np.ceil(corners.max(axis=0)).astype(int) + 1

@@ -78,7 +78,7 @@ def evidence(comb: GroundRows, plants: GroundPlants, crop: CropProfile, plane: P
     the share STRAY, anywhere.
     """
     spread_m = SPREAD * scatter_m(crop)
-    view_m = plane.width_px / float(plane.pixels_per_metre(plane.centre_y_px))
+    view_m = plane.width_px / float(plane.pixels_per_metre(plane.ground_middle_px))
     off = np.abs(comb.residual_m(plants)).min(axis=0)
     on_row = np.exp(-0.5 * (off / spread_m) ** 2) / (spread_m * np.sqrt(2 * np.pi) * len(comb.place_m))
     ratio = (1 - STRAY) * on_row * view_m + STRAY

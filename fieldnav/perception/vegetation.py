@@ -1,6 +1,7 @@
 """Where vegetation is: excess green and Otsu's threshold (paper III-A.1)."""
 
 from dataclasses import dataclass
+from math import ceil
 
 import cv2
 import numpy as np
@@ -28,7 +29,8 @@ class Cover:
     """The vegetation of an image, at a size near WORKING_WIDTH_PX.
 
     index: excess green, shape (h, w), uint8, 255 standing for 1; threshold: the grey level from which on a
-    pixel is vegetation; floor: the least it may be; width_px, height_px: size of the image itself.
+    pixel is vegetation; floor: the least it may be; width_px, height_px: size of the image itself; top: the
+    first row of the index that shows ground, above which nothing is vegetation.
     """
 
     index: NDArray[np.uint8]
@@ -36,6 +38,7 @@ class Cover:
     floor: float
     width_px: int
     height_px: int
+    top: int = 0
 
     @property
     def mask(self) -> Mask:
@@ -49,8 +52,30 @@ class Cover:
         Judged strip by strip: green fields at the horizon would hide pale plants nearby. Half the floor is
         enough here, since rows are told by their order too.
         """
-        strips = np.array_split(self.index, min(STRIPS, len(self.index)))
-        return np.concatenate([_strength(strip, self.floor / 2) for strip in strips])
+        ground = self.index[self.top :]
+        strips = np.array_split(ground, min(STRIPS, len(ground)))
+        strength = np.concatenate([_strength(strip, self.floor / 2) for strip in strips])
+        return strength if not self.top else np.concatenate([np.zeros_like(self.index[: self.top]), strength])
+
+    @property
+    def ground_share(self) -> float:
+        """Of the image's height, that shows ground."""
+        return 1 - self.top / len(self.index)
+
+    def below(self, top_px: float) -> "tuple[Cover, float]":
+        """The part of the image from about an image row on down, as if it were all, and where it begins."""
+        if not top_px:
+            return self, 0.0
+        scale = self.height_px / len(self.index)
+        top = _first_row(top_px, scale, len(self.index))
+        height_px = round((len(self.index) - top) * scale)
+        part = Cover(self.index[top:], self.threshold, self.floor, self.width_px, height_px)
+        return part, self.height_px - float(height_px)
+
+
+def _first_row(top_px: float, scale: float, rows: int) -> int:
+    """The first row of a smaller image that shows nothing above an image row; at least one row is left."""
+    return min(max(0, ceil((top_px + 0.5) / scale - 0.5)), rows - 1)
 
 
 def _strength(strip: NDArray[np.uint8], floor: float) -> NDArray[np.uint8]:
@@ -74,11 +99,12 @@ def excess_green(image: Image) -> NDArray[np.uint8]:
     return np.asarray(cv2.divide(excess, brightness, scale=FULL_SCALE * 2 / COLOURS), dtype=np.uint8)
 
 
-def vegetation_of(image: Image, vegetation: Vegetation) -> Cover:
+def vegetation_of(image: Image, vegetation: Vegetation, top_px: float = 0.0) -> Cover:
     """The vegetation of an image, by Otsu's threshold but never below the profile's floor.
 
     image: shape (h, w, 3), uint8, blue green red. One that is none (one channel, tiny, not finite) has
-    nothing growing in it.
+    nothing growing in it. top_px: the image row from which on down it shows ground; the sky and the trees
+    above it have no part in the threshold.
     """
     colour = as_colour(image)
     if colour is None:
@@ -89,9 +115,11 @@ def vegetation_of(image: Image, vegetation: Vegetation) -> Cover:
     size = (width // divisor, max(1, height // divisor))
     small = colour if divisor == 1 else cv2.resize(colour, size, interpolation=cv2.INTER_AREA)
     index = excess_green(np.asarray(small, dtype=np.uint8))
-    otsu, _ = cv2.threshold(index, 0, FULL_SCALE, cv2.THRESH_OTSU)
+    top = _first_row(top_px, height / len(index), len(index)) if top_px else 0
+    index[:top] = 0
+    otsu, _ = cv2.threshold(index[top:], 0, FULL_SCALE, cv2.THRESH_OTSU)
     floor = vegetation.floor * FULL_SCALE
-    return Cover(index, max(otsu, floor, 1.0), floor, width, height)
+    return Cover(index, max(otsu, floor, 1.0), floor, width, height, top)
 
 
 def as_colour(image: Image) -> Image | None:

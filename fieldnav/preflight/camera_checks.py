@@ -1,6 +1,7 @@
 """The checks of the cameras that need no crop: they give frames in time, and the frames show something."""
 
 from collections.abc import Iterator, Mapping
+from math import ceil
 from pathlib import Path
 
 from drivers.picture_folder import PICTURES
@@ -43,8 +44,8 @@ def _arrival(check: str, frames: list[Frame], settings: CameraSettings) -> Findi
 
 
 def _pictures(name: CameraName, frames: list[Frame], settings: CameraSettings) -> Iterator[Finding]:
-    """What the frames look like."""
-    seen = quality(frames[-1].image)
+    """What the frames look like; sky says nothing of a camera."""
+    seen = quality(frames[-1].image[ceil(settings.pinhole().top_px) :])
     check = f"{name.value} camera picture"
     figure = f"brightness {seen.brightness:.0f}, contrast {seen.contrast:.0f} of 255"
     if seen.brightness < BLACK:

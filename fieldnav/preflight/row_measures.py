@@ -42,9 +42,9 @@ def canopy_width_m(view: View, crop: CropProfile, camera: Pinhole) -> float | No
 
 def _cover_across(view: View, crop: CropProfile, camera: Pinhole) -> Floats:
     """Share of the ground that is green, by distance from the nearest row in steps of BIN_M, shape (n,)."""
-    green = view.cover.mask > 0
-    height, width = green.shape
-    y = to_full(np.arange(height, dtype=float), view.cover.height_px / height)
+    height, width = view.cover.index.shape
+    green = view.cover.mask[view.cover.top :] > 0
+    y = to_full(np.arange(view.cover.top, height, dtype=float), view.cover.height_px / height)
     x = to_full(np.arange(width, dtype=float), view.cover.width_px / width)
     across = canopy_plane(camera, crop).pixels_per_metre(y)[:, None]
     off_px = [np.abs(x - line_px(line, y, camera)[:, None]) for line in view.lines]

@@ -35,15 +35,19 @@ def overlay(
     centres: Centres | None = None,
     feature: RowLine | None = None,
     caption: Sequence[str] = (),
+    sky_px: float = 0.0,
 ) -> bytes:
-    """Rows, plants, the average line and lines of text over a picture of size_px, width and height."""
-    width, height = size_px
+    """Rows, plants, the average line and lines of text over a picture of size_px, width and height.
+
+    sky_px: how many image rows look above the horizon; no row is drawn there.
+    """
+    width, last = size_px[0], size_px[1] - 1.0
     thick = max(1.0, width * LINE_WIDTH)
     held = [row for row in rows if row.confidence <= 0]
     points = [
-        _lines([row for row in rows if row.confidence > 0], height, _colour(ROW), thick),
-        _lines(held, height, _colour(HELD_ROW, DIMMED), thick),
-        _lines([feature] if feature else [], height, _colour(FEATURE), 2 * thick),
+        _lines([row for row in rows if row.confidence > 0], (sky_px, last), _colour(ROW), thick),
+        _lines(held, (sky_px, last), _colour(HELD_ROW, DIMMED), thick),
+        _lines([feature] if feature else [], (sky_px, last), _colour(FEATURE), 2 * thick),
     ]
     if centres is not None and len(centres):
         points.append(_dots(centres.position_px, 4 * thick))
@@ -55,8 +59,12 @@ def overlay(
     return drawn.SerializeToString()
 
 
-def _lines(rows: Iterable[RowLine], height: int, colour: Color, thick: float) -> PointsAnnotation:
-    ends = [(row.x_top_px, 0.0, row.x_bottom_px, height - 1.0) for row in rows]
+def _lines(
+    rows: Iterable[RowLine], between_px: tuple[float, float], colour: Color, thick: float
+) -> PointsAnnotation:
+    """Between two image rows, the lower of which is the last."""
+    upper, last = between_px
+    ends = [(row.at(upper, last), upper, row.x_bottom_px, last) for row in rows]
     return PointsAnnotation(
         type=PointsAnnotation.LINE_LIST,
         points=_points(np.array(ends, dtype=float).reshape(-1, 2)),

@@ -1,5 +1,6 @@
 """Finds the recorded frame of a moment, and draws what the robot saw into it."""
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from math import inf
 
@@ -8,7 +9,7 @@ from fieldnav.inquiry.moment import clock
 from fieldnav.inquiry.seen import seen_in, seen_of
 from fieldnav.journal.entry import Line
 from fieldnav.journal.overlay import draw_overlay
-from fieldnav.messages import STANDSTILL, Twist
+from fieldnav.messages import STANDSTILL, CameraName, Twist
 from fieldnav.recording.picture import Picture
 from fieldnav.recording.recording import Recording
 from fieldnav.recording.records import Seen, Stepped
@@ -34,15 +35,16 @@ class Moment:
 class Pictures:
     """Finds the pictures of moments; without a recording there are none."""
 
-    def __init__(self, recording: Recording | None) -> None:
-        self._recording = recording
+    def __init__(self, recording: Recording | None, skies_px: Mapping[CameraName, float]) -> None:
+        """skies_px: how many image rows of each camera look above the horizon, where that is known."""
+        self._recording, self._skies_px = recording, skies_px
 
     def of_step(self, step: Stepped) -> Shown | None:
         """What was judged in a step; None when its frame was not recorded."""
         try:
             found = self._picture(step.frame) if step.frame else None
             moment = Moment(step.now_s, step.state, step.lane, self._command(step.now_s))
-            return _shown(found, step, moment) if found else None
+            return self._shown(found, step, moment) if found else None
         except FieldnavError:  # a damaged picture costs itself, no more
             return None
 
@@ -53,7 +55,7 @@ class Pictures:
             found = (self._picture(seen) if seen else None) or self._newest(line.stamp_s, step)
             same = step if step and found and _is(step.frame, found.seen) else None
             moment = Moment(line.stamp_s, line.source, line.lane, self._command(line.stamp_s))
-            return _shown(found, same, moment) if found else None
+            return self._shown(found, same, moment) if found else None
         except FieldnavError:
             return None
 
@@ -93,14 +95,13 @@ class Pictures:
             newest = picture if camera in (None, picture.seen.camera) else newest
         return newest
 
-
-def _shown(found: Picture, step: Stepped | None, moment: Moment) -> Shown:
-    view = seen_in(found, step, moment.state, moment.lane, moment.command)
-    caption = f"{found.seen.camera.value} camera at {clock(found.seen.stamp_s)}"
-    if step is None:
-        caption += ", not judged"
-    ago_s = moment.stamp_s - found.seen.stamp_s
-    return shown(draw_overlay(view), f"{caption}{_ago(ago_s)}")
+    def _shown(self, found: Picture, step: Stepped | None, moment: Moment) -> Shown:
+        view = seen_in(found, step, moment.state, moment.lane, moment.command, self._skies_px)
+        caption = f"{found.seen.camera.value} camera at {clock(found.seen.stamp_s)}"
+        if step is None:
+            caption += ", not judged"
+        ago_s = moment.stamp_s - found.seen.stamp_s
+        return shown(draw_overlay(view), f"{caption}{_ago(ago_s)}")
 
 
 def _ago(ago_s: float) -> str:

@@ -5,6 +5,7 @@ from pathlib import Path
 
 from fieldnav.journal.directory import RunDirectory
 from fieldnav.journal.files import check_replaceable, write_atomically
+from fieldnav.journal.resolved import skies_px
 from fieldnav.report.composing import compose
 from fieldnav.report.material import Problems, gather, open_recording
 from fieldnav.report.page import render
@@ -18,6 +19,6 @@ def write_report(directory: RunDirectory, out: Path | None = None) -> Path:
     problems = Problems()
     with open_recording(directory, problems) or nullcontext() as recording:
         material = gather(directory, recording, problems)
-        page = compose(material, Pictures(recording))
+        page = compose(material, Pictures(recording, skies_px(directory.settings)))
     write_atomically(path, render(page).encode(errors="replace"))
     return path

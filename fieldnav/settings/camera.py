@@ -1,6 +1,7 @@
 """Robot file: the cameras, where they sit, and how far they may be knocked away from there."""
 
-from math import atan, ceil, degrees, radians, tan
+from dataclasses import replace
+from math import atan, degrees, radians, tan
 from typing import Self
 
 from pydantic import Field, model_validator
@@ -10,8 +11,14 @@ from fieldnav.pinhole import Pinhole
 from fieldnav.settings.model import Settings
 
 HORIZON_MARGIN_DEG = 5.0
-"""Chosen: the image's upper edge looks so far below the horizon, at ground within 11 camera heights."""
-STEEPEST_TILT_DEG = 90
+"""Chosen: an image whose upper edge looks at least so far below the horizon counts as a whole: it shows
+ground within 11 camera heights."""
+FURTHEST_DEG, FURTHEST_M = 10.0, 8.0
+"""Chosen: of other images the ground counts that is so far below the horizon, within 5.7 camera heights,
+and no further away. A camera that hangs 1.5 degrees otherwise than its file says places ground a camera
+height too far there, at 5 degrees five; and where a lane ends is decided by 8 m of it."""
+MIN_TILT_DEG, MAX_TILT_DEG = 10, 90
+MAX_VIEW_DEG = 150
 LARGEST_SIDE_PX = 8192
 
 
@@ -22,9 +29,13 @@ class CameraSettings(Settings):
     width_px: int = Field(ge=64, le=LARGEST_SIDE_PX)
     height_px: int = Field(ge=48, le=LARGEST_SIDE_PX)
     rate_hz: float = Field(gt=0, le=240)
-    horizontal_fov_deg: float = Field(ge=10, le=150)
+    horizontal_fov_deg: float = Field(ge=10, le=MAX_VIEW_DEG)
     height_m: float = Field(ge=0.2, le=5)
-    tilt_deg: float = Field(ge=20, le=STEEPEST_TILT_DEG, description="below the horizontal")
+    tilt_deg: float = Field(
+        ge=MIN_TILT_DEG,
+        le=MAX_TILT_DEG,
+        description="of the optical axis below the horizontal; the horizon may be in view",
+    )
     distance_m: float = Field(
         ge=0, le=3, description="from the centre of rotation, in the direction the camera looks"
     )
@@ -33,14 +44,14 @@ class CameraSettings(Settings):
     )
 
     @model_validator(mode="after")
-    def _sees_ground_alone(self) -> Self:
-        """The horizon is nowhere on the ground, and rows that reach up to it have no end."""
-        least_deg = HORIZON_MARGIN_DEG + degrees(atan(self.height_px / 2 / self._focal_px))
-        if self.tilt_deg < least_deg:
+    def _horizon_in_no_all_round_view(self) -> Self:
+        """A view that holds the horizon in front must not come near to the one behind."""
+        high_deg = 2 * self._half_view_deg
+        if self._looks_at_horizon and high_deg > MAX_VIEW_DEG:
             view = f"horizontal_fov_deg {self.horizontal_fov_deg:g} at {self.width_px}x{self.height_px} px"
-            allowed = f"at least {ceil(least_deg)}" if least_deg <= STEEPEST_TILT_DEG else "a less tall view"
             raise ValueError(
-                f"tilt_deg {self.tilt_deg:g} with {view} looks at the horizon; allowed is {allowed}"
+                f"tilt_deg {self.tilt_deg:g} with {view} looks at the horizon and is {high_deg:.0f} degrees "
+                f"high; allowed is at most {MAX_VIEW_DEG}"
             )
         return self
 
@@ -48,11 +59,25 @@ class CameraSettings(Settings):
     def _focal_px(self) -> float:
         return self.width_px / 2 / tan(radians(self.horizontal_fov_deg) / 2)
 
+    @property
+    def _half_view_deg(self) -> float:
+        """From the optical axis to the image's upper or lower edge."""
+        return degrees(atan(self.height_px / 2 / self._focal_px))
+
+    @property
+    def _looks_at_horizon(self) -> bool:
+        """Whether the upper edge looks at the horizon, or nearly."""
+        return self.tilt_deg < HORIZON_MARGIN_DEG + self._half_view_deg
+
     def pinhole(self) -> Pinhole:
         tilt_rad = radians(self.tilt_deg)
-        return Pinhole(
+        camera = Pinhole(
             self.width_px, self.height_px, self._focal_px, self.height_m, tilt_rad, self.distance_m
         )
+        if not self._looks_at_horizon:
+            return camera
+        below_rad = max(radians(FURTHEST_DEG), atan(self.height_m / FURTHEST_M))
+        return replace(camera, top_px=max(0.0, camera.seen_at_px(min(below_rad, tilt_rad))))
 
 
 class Cameras(Settings):
@@ -67,6 +92,10 @@ class Cameras(Settings):
     def pinholes(self) -> dict[CameraName, Pinhole]:
         """How each of them sees."""
         return {name: self.get(name).pinhole() for name in CameraName}
+
+    def skies_px(self) -> dict[CameraName, float]:
+        """How many image rows of each of them look above the horizon."""
+        return {name: camera.sky_px for name, camera in self.pinholes().items()}
 
 
 class CameraLimits(Settings):

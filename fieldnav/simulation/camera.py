@@ -14,11 +14,15 @@ import numpy as np
 from fieldnav.messages import CameraName, Frame, Image
 from fieldnav.settings.camera import CameraSettings
 from fieldnav.simulation.renderer import View
+from fieldnav.simulation.rendering.view import FARTHEST_M
 from fieldnav.simulation.sensor import Sensor
 from fieldnav.simulation.shaking import rotation
 from fieldnav.simulation.streams import Stream, random_stream
 from fieldnav.simulation.world import Motion, World
 
+BEYOND = 1.6
+"""Times the ground that counts, up to which plants are drawn: a camera that hangs 1.5 degrees too high and
+pitches by two more looks so far."""
 KEPT = 16
 """Exposures kept until drawn; the newest is always among them."""
 
@@ -54,6 +58,9 @@ class SimulatedCamera:
         yaw = float(random_stream(world.field.seed, Stream.CAMERA_YAW, place).uniform(-1, 1))
         self._yaw_rad = radians(errors.yaw_error_deg) * yaw * (-1 if world.field.mirrored else 1)
         self._losses = random_stream(world.field.seed, Stream.LOST_FRAMES, place)
+        self._farthest_m = FARTHEST_M
+        if self._pinhole.top_px:
+            self._farthest_m = max(FARTHEST_M, BEYOND * (self._pinhole.view_m[1] - self._pinhole.forward_m))
         size_px = (self._pinhole.width_px, self._pinhole.height_px)
         self._sensor = Sensor(errors, *size_px, world.field.seed + place, world.field.mirrored)
         # The two cameras do not expose at the same moment.
@@ -102,7 +109,8 @@ class SimulatedCamera:
         )
         # Seen from the rear camera, rolling and pitching go the other way.
         turned = rotation(now.attitude, looking, gaze, self._tilt_rad)
-        return View(self._pinhole.width_px, self._pinhole.height_px, self._focal_px, position, turned)
+        size_px = (self._pinhole.width_px, self._pinhole.height_px)
+        return View(*size_px, self._focal_px, position, turned, self._farthest_m)
 
     def _smear_px(self, now: Motion) -> tuple[float, float]:
         """How far the ground at the image's centre moves during the exposure."""

@@ -2,6 +2,7 @@
 
 import cv2
 import numpy as np
+from numpy.typing import NDArray
 
 from fieldnav.messages import Floats, Image
 from fieldnav.settings.crop import CropProfile
@@ -14,12 +15,14 @@ from fieldnav.simulation.rendering.light import make_lighting
 from fieldnav.simulation.rendering.models import grow_models
 from fieldnav.simulation.rendering.painter import paint_leaves
 from fieldnav.simulation.rendering.palette import colour_table, share_bands
-from fieldnav.simulation.rendering.view import View
+from fieldnav.simulation.rendering.view import SKY_BGR, View
 from fieldnav.simulation.rendering.wind import make_wind
 from fieldnav.simulation.soil import make_soil
 from fieldnav.simulation.texture import Texture
 
 __all__ = ["FieldRenderer", "View"]
+
+BLANK = 0  # the darkest soil, which no leaf has the colour of
 
 
 class FieldRenderer:
@@ -52,14 +55,34 @@ class FieldRenderer:
         lower, upper = view.footprint(0.0)
         ground, mottle, to_map = self._ground.over(Block.around(lower, upper))
         canvas = _seen(ground, to_map, view)
-        above_lower, above_upper = view.footprint(min(self._foliage.tallest_m, float(view.position_m[2]) / 2))
+        sky = _sky(view)
+        if sky is not None:
+            canvas[sky] = BLANK
+        lower, upper = view.footprint(0.0, view.farthest_m)
+        above_m = min(self._foliage.tallest_m, float(view.position_m[2]) / 2)
+        above_lower, above_upper = view.footprint(above_m, view.farthest_m)
         beside = self._foliage.widest_m / 2
         rooted = Block.around(
             np.minimum(lower, above_lower) - beside, np.maximum(upper, above_upper) + beside
         )
         paint_leaves(canvas, view, self._foliage.within(rooted), self._wind, time_s)
+        if sky is not None:
+            sky &= canvas == BLANK
         cv2.add(canvas, _seen(mottle, to_map, view), dst=canvas)
-        return np.asarray(cv2.applyColorMap(canvas, self._colours), dtype=np.uint8)
+        picture = np.asarray(cv2.applyColorMap(canvas, self._colours), dtype=np.uint8)
+        if sky is not None:
+            picture[sky] = SKY_BGR
+        return picture
+
+
+def _sky(view: View) -> NDArray[np.bool_] | None:
+    """Where a view looks above the horizon, shape (height, width); None where it does not."""
+    corners = view.sky_px
+    if corners is None:
+        return None
+    sky = np.zeros((view.height_px, view.width_px), np.uint8)
+    cv2.fillConvexPoly(sky, np.rint(corners).astype(np.int32), 1)
+    return np.asarray(sky, bool)
 
 
 def _seen(texture: Texture, to_texture: Floats, view: View) -> Texture:

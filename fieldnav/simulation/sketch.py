@@ -12,7 +12,7 @@ from fieldnav.messages import Floats, Image
 from fieldnav.settings.crop import CropProfile
 from fieldnav.settings.field import FieldSettings
 from fieldnav.simulation.plan import FieldPlan
-from fieldnav.simulation.rendering.view import View
+from fieldnav.simulation.rendering.view import SKY_BGR, View
 
 LEAVES = 6  # of every plant
 NOTCH = 0.45  # how far leaves are parted: a star covers a third of its square, as plants do on average
@@ -39,6 +39,9 @@ class SketchRenderer:
     def render(self, view: View, time_s: float) -> Image:
         """The picture, shape (height, width, 3), blue, green, red; the time makes no difference."""
         picture = self._bare(view.height_px, view.width_px).copy()
+        sky = view.sky_px
+        if sky is not None:
+            cv2.fillConvexPoly(picture, np.rint(sky).astype(np.int32), SKY_BGR)
         near = self._near(view)
         corners, before = self._corners_px(view, near)
         colours = np.where(self._is_crop[near][:, None], CROP_BGR, WEED_BGR)
@@ -55,7 +58,7 @@ class SketchRenderer:
 
     def _near(self, view: View) -> NDArray[np.int64]:
         """The plants that may be in view, the lower ones first."""
-        lower, upper = view.footprint(0.0)
+        lower, upper = view.footprint(0.0, view.farthest_m)
         reach_m = float(np.hypot(*(upper - lower))) / 2 + self._beside_m
         near = self._plan.plants_near((lower + upper) / 2, reach_m)
         return near[np.argsort(self._middle[near, 2], kind="stable")]

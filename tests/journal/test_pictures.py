@@ -85,6 +85,17 @@ def test_rows_seen_rows_kept_and_the_feature_are_told_apart() -> None:
         assert np.abs(drawn[120, x].astype(int) - colour).max() <= 20  # lines are drawn with soft edges
 
 
+def test_no_row_is_drawn_into_the_sky() -> None:
+    sky_px, written_px = 100, 40
+    rows, feature = (RowLine(60, 60),), RowLine(160, 160)
+
+    drawn = draw_overlay(OverlayView(SOIL, "Idle", 0.0, "front", rows, None, feature, sky_px=sky_px))
+
+    assert np.array_equal(drawn[written_px : sky_px - 3], SOIL[written_px : sky_px - 3])
+    for x, colour in ((60, ROW), (160, FEATURE)):
+        assert np.abs(drawn[sky_px + 5, x].astype(int) - colour).max() <= 20
+
+
 def test_drawing_leaves_the_picture_itself_alone() -> None:
     before = SOIL.copy()
 

@@ -49,6 +49,15 @@ def test_rows_are_lines_from_the_upper_to_the_lower_edge_and_held_ones_are_dimme
     assert held.outline_color.a < seen.outline_color.a == 1.0
 
 
+def test_rows_end_at_a_horizon_that_is_in_view() -> None:
+    rows = [RowLine(1280, 0, 0.9)]
+
+    drawn = ImageAnnotations.FromString(overlay(UTC_NOW, SIZE_PX, rows, None, rows[0], sky_px=179.75))
+
+    for lines in drawn.points:
+        assert segments(lines) == [(960.5, 180.25), (0.5, 719.5)]
+
+
 def test_plants_are_points_and_the_average_line_is_the_thickest() -> None:
     drawn = ImageAnnotations.FromString(overlay(UTC_NOW, SIZE_PX, ROWS, CENTRES, RowLine(650, 630)))
 

@@ -118,17 +118,23 @@ CASES = {
         f"name: {'x' * 300}",
         ["name: 'xxx", "lower-case letters, digits and hyphens, at most 64"],
     ),
-    "a camera that sees the horizon": (
+    "a camera that looks too far up": (
         Kind.ROBOT,
         "tilt_deg: 65 # paper",
-        "tilt_deg: 20 # paper",
-        ["cameras.front: tilt_deg 20", "horizontal_fov_deg 69 at 1280x720 px", "allowed is at least 27"],
+        "tilt_deg: 9.9 # paper",
+        ["cameras.front.tilt_deg: 9.9 is not allowed; allowed is a number from 10 to 90"],
     ),
-    "a picture so tall that it shows the horizon": (
+    "a camera that looks back": (
+        Kind.ROBOT,
+        "tilt_deg: 65 # paper",
+        "tilt_deg: 91 # paper",
+        ["cameras.front.tilt_deg: 91 is not allowed; allowed is a number from 10 to 90"],
+    ),
+    "a picture so tall that it shows the horizon all round": (
         Kind.ROBOT,
         "height_px: 720 # paper",
         "height_px: 8192 # paper",
-        ["cameras.front: tilt_deg 65", "at 1280x8192 px", "allowed is at least 83"],
+        ["cameras.front: tilt_deg 65", "at 1280x8192 px", "is 154 degrees high; allowed is at most 150"],
     ),
     "a bound of many digits": (
         Kind.FIELD,

@@ -14,7 +14,7 @@ from fieldnav.settings.field import FieldSettings
 from fieldnav.settings.loading import load_crop, load_field, load_robot, revised
 from fieldnav.simulation.plan import FieldPlan, sow
 from fieldnav.simulation.renderer import FieldRenderer
-from fieldnav.simulation.rendering.view import View
+from fieldnav.simulation.rendering.view import SKY_BGR, View
 from fieldnav.simulation.shaking import Attitude, rotation
 from fieldnav.simulation.sketch import SketchRenderer
 
@@ -118,3 +118,27 @@ def test_the_mirrored_field_seen_in_a_mirror_is_the_plain_one() -> None:
     pictures = plain.render(view, 0.0), mirrored.render(view.mirrored(), 0.0)[:, ::-1]
 
     assert (pictures[0] != pictures[1]).any(axis=2).mean() < 0.01
+
+
+@pytest.mark.parametrize("renderer", [SketchRenderer, FieldRenderer])
+def test_above_the_horizon_is_sky_and_below_it_none(renderer: type[SketchRenderer | FieldRenderer]) -> None:
+    field, plan = field_of("sugar-beet")
+    low = replace(CAMERA, tilt_rad=np.radians(15), width_px=640, height_px=360, focal_px=CAMERA.focal_px / 2)
+    turned = rotation(Attitude(), 1, 0.0, low.tilt_rad)
+    view = View(640, 360, low.focal_px, np.array([2.0, 0.0, low.height_m]), turned, farthest_m=9.0)
+
+    picture = renderer(plan, field, load_crop("sugar-beet")).render(view, 0.0)
+
+    horizon = round(low.horizon_px)
+    assert (picture[: horizon - 2] == SKY_BGR).all()
+    assert not (picture[horizon + 3 :] == SKY_BGR).all(axis=-1).any()
+
+
+def test_a_rolled_camera_sees_the_horizon_slant_and_one_that_looks_down_sees_none() -> None:
+    rolled = replace(view_at(4.0), rotation=rotation(Attitude(roll_rad=0.1), 1, 0.0, np.radians(15)))
+
+    corners = rolled.sky_px
+
+    assert corners is not None and corners[2, 1] < corners[3, 1], "the right side hangs lower"
+    assert view_at(4.0).sky_px is None
+    assert replace(rolled, rotation=rotation(Attitude(), 1, 0.0, np.radians(90))).sky_px is None

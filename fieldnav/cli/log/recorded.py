@@ -1,6 +1,6 @@
 """What a recording knows of the time before a moment: what was judged, how the robot moved, what it saw."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 
 import numpy as np
@@ -9,6 +9,8 @@ from fieldnav.cli.log.chart import Course
 from fieldnav.inquiry.quantities import OFFSET
 from fieldnav.journal.directory import RunDirectory
 from fieldnav.journal.entry import Judged
+from fieldnav.journal.resolved import skies_px
+from fieldnav.messages import CameraName
 from fieldnav.recording.picture import Picture
 from fieldnav.recording.recording import Recording
 from fieldnav.recording.records import Gap, Seen, Stepped, Ticked
@@ -21,13 +23,17 @@ AFTER_S = 0.01
 
 @dataclass(frozen=True, slots=True)
 class Recorded:
-    """The half minute before a moment; picture: the newest of those that were gone by."""
+    """The half minute before a moment; picture: the newest of those that were gone by.
+
+    skies_px: how many image rows of each camera look above the horizon, where that is known.
+    """
 
     steps: tuple[Stepped, ...]
     ticks: tuple[Ticked, ...]
     gaps: tuple[Gap, ...]
     step: Stepped | None
     picture: Picture | None
+    skies_px: Mapping[CameraName, float]
 
     def judged(self, state: str) -> tuple[Judged, ...]:
         """What was judged last, if it was in that state."""
@@ -47,7 +53,8 @@ def recorded(directory: RunDirectory, at_s: float, seen: Seen | None) -> Recorde
         step = _on(steps, seen)
         frame = step.frame if step is not None else seen
         picture = recording.picture(frame) if frame is not None else None
-        return Recorded(steps, tuple(recording.ticks(begin_s, end_s)), gaps, step, picture)
+        ticks = tuple(recording.ticks(begin_s, end_s))
+        return Recorded(steps, ticks, gaps, step, picture, skies_px(directory.settings))
 
 
 def _on(steps: tuple[Stepped, ...], seen: Seen | None) -> Stepped | None:

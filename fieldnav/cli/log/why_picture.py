@@ -42,7 +42,7 @@ def _view(known: Recorded, picture: Picture) -> OverlayView:
     step = known.step
     told = next((tick for tick in known.ticks if step is None or tick.now_s >= step.now_s), None)
     state, lane = (step.state, step.lane) if step else ("", None)
-    return seen_in(picture, step, state, lane, told.told if told else STANDSTILL)
+    return seen_in(picture, step, state, lane, told.told if told else STANDSTILL, known.skies_px)
 
 
 def _captioned(image: Image, headline: str, judged: Sequence[str]) -> Image:

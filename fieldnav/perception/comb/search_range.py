@@ -34,16 +34,19 @@ CANDIDATES = 6
 def range_of(plane: Pinhole, spacing_m: float, pose_known: bool) -> SearchRange:
     """The range for a camera over the canopy's plane; kept for the frames that follow.
 
+    Heights of the comb are those of the ground in the image, from the plane's `top_px` on down.
+
     pose_known: whether the camera's pose is that of its file but for calibration and shaking; otherwise it
     may be quite another one.
     """
     tilt, scale = (TILT_ERROR_RAD, 1 + SCALE_ERROR) if pose_known else (UNKNOWN_TILT_RAD, UNKNOWN_SCALE)
-    across = plane.width_px / float(plane.pixels_per_metre(plane.centre_y_px)) / spacing_m
+    across = plane.width_px / float(plane.pixels_per_metre(plane.ground_middle_px)) / spacing_m
     most = STEEPEST * plane.focal_px / (plane.width_px * cos(plane.tilt_rad))
     rows_across = _rows_across(across / scale, across * scale)
     leans = _steps(-most, most, IN_STEP / float(rows_across.max()) / NEAREST)
     tilts = plane.tilt_rad + tilt * np.linspace(-1, 1, FEWEST_STEPS if pose_known else 2 * FEWEST_STEPS + 1)
-    convergence = plane.height_px / (plane.focal_px * np.tan(tilts))
+    below_axis_px = plane.ground_middle_px - plane.centre_y_px
+    convergence = (plane.height_px - plane.top_px) / (plane.focal_px * np.tan(tilts) + below_axis_px)
     followed, refined = (2, 1) if pose_known else (CANDIDATES, CANDIDATES)
     return SearchRange(
         np.abs(convergence), rows_across, leans, np.zeros(1), followed, not pose_known, refined

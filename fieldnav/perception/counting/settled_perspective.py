@@ -15,6 +15,8 @@ from fieldnav.pinhole import Pinhole
 from fieldnav.settings.crop import CropProfile
 
 MOST_FRAMES = 16  # that are searched for rows; more change nothing and cost time
+TRUST = 4  # power of the response by which a frame weighs: where rows are shown badly, their lean is chance
+MIN_RESPONSE = 0.01  # so that some frame weighs something where none shows rows
 FIRST = Perspective(0.4, 0.0, 0.3)
 """Until rows are found: a camera that looks down steeply, and three rows."""
 FLATTEST, STEEPEST = 0.02, 2.2  # convergence, as far as rows are searched for
@@ -38,7 +40,7 @@ class SettledPerspective:
         if combed is None:
             return
         comb, bands = combed
-        self._found.append((perspective_of(comb), max(comb.response(bands), np.finfo(float).tiny)))
+        self._found.append((perspective_of(comb), max(comb.response(bands), MIN_RESPONSE) ** TRUST))
         each = np.array([(one.convergence, one.vanishing, one.spacing) for one, _ in self._found])
         convergence, vanishing, spacing = _median(each, np.array([weight for _, weight in self._found]))
         settled = self._convergence or float(np.clip(convergence, FLATTEST, STEEPEST))

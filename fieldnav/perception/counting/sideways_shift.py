@@ -14,7 +14,7 @@ from fieldnav.messages import Floats
 from fieldnav.perception.counting.levelled import PLACES, STEP, Levelled, Levels
 
 LEAST_OVERLAP = 0.3  # of the ground that one picture shows, which the other must show too
-SURPRISE = 0.3  # of likeness that a motion loses which is one row spacing off the expected one
+SURPRISE = 1.0  # of likeness that a motion loses which is one row spacing off the expected one
 ACROSS, ALONG = (
     2.0,
     2.0,

@@ -16,7 +16,7 @@ from fieldnav.pinhole import Pinhole
 from fieldnav.settings.crop import CropProfile
 
 LOOK_AT = 0.25
-"""The image row at which rows are placed, over the image's height."""
+"""The image row at which rows are placed, over the height of the ground in the image."""
 FIRST_PLACE_M = 0.03
 """Standard deviation of a row's place as the lane's rows gave it."""
 LENGTH_M = 0.5
@@ -131,5 +131,6 @@ def only(crossing: Crossing, kept: Sequence[int]) -> Crossing:
 
 def look_at_m(plane: Pinhole) -> float:
     """Distance ahead of the robot's centre at which rows are placed."""
-    at = np.array([plane.centre_x_px, LOOK_AT * plane.height_px])
+    at_px = plane.top_px + LOOK_AT * (plane.height_px - plane.top_px)
+    at = np.array([plane.centre_x_px, at_px])
     return float(plane.to_ground(at)[0])

@@ -17,20 +17,21 @@ def rows_in_image(crossing: Crossing, crop: CropProfile, camera: Pinhole) -> tup
 
 
 def row_in_view(crossing: Crossing, across_m: float, crop: CropProfile, camera: Pinhole) -> RowLine | None:
-    """The line of a row at this distance from the robot, if its upper half stands wholly in the view."""
-    line = _line(crossing, across_m, canopy_plane(camera, crop))
-    at = np.array([0.0, camera.centre_y_px])
+    """The line of a row at this distance from the robot, if its far half stands wholly in the view."""
+    plane = canopy_plane(camera, crop)
+    line = _line(crossing, across_m, plane)
+    at = np.array([plane.top_px, plane.ground_middle_px])
     room, half = line_px(line, at, camera), half_width_px(at, crop, camera)
     inside = (room - half >= 0) & (room + half <= camera.width_px - 1)
     return line if inside.all() else None
 
 
 def view_limit_m(crop: CropProfile, camera: Pinhole) -> float:
-    """Distance to either side up to which a row along the view stands wholly in its upper half."""
+    """Distance to either side up to which a row along the view stands wholly in its far half."""
     plane = canopy_plane(camera, crop)
-    at = np.array([camera.centre_y_px])
+    at = np.array([plane.ground_middle_px])
     half_px = camera.centre_x_px - float(half_width_px(at, crop, camera)[0])
-    return half_px / float(plane.pixels_per_metre(camera.centre_y_px))
+    return half_px / float(plane.pixels_per_metre(plane.ground_middle_px))
 
 
 def _line(crossing: Crossing, across_m: float, plane: Pinhole) -> RowLine:

@@ -8,6 +8,7 @@ from fieldnav.messages import Floats
 
 FARTHEST_M = 4.5  # of ground that is looked at; beyond it a picture only needs to be filled
 LEAST_DROP = 1e-3  # rays this flat never reach the ground
+SKY_BGR = (230, 222, 210)  # a bright overcast day
 
 
 @dataclass(frozen=True, slots=True)
@@ -16,6 +17,7 @@ class View:
 
     position_m: shape (3,), world coordinates, z up from the ground; rotation: shape (3, 3), camera to world,
     its columns the camera's axes: x right, y down, z forward. The principal point is the picture's middle.
+    farthest_m: how far away plants are drawn, ahead and to either side.
     """
 
     width_px: int
@@ -23,6 +25,7 @@ class View:
     focal_px: float
     position_m: Floats
     rotation: Floats
+    farthest_m: float = FARTHEST_M
 
     def mirrored(self) -> "View":
         """The view whose picture, flipped left to right, shows the world flipped about its x axis."""
@@ -33,6 +36,7 @@ class View:
             self.focal_px,
             self.position_m * across_world,
             self.rotation * across_world[:, None] * across_camera,
+            self.farthest_m,
         )
 
     @property
@@ -53,13 +57,28 @@ class View:
         drop = np.array([[z, 0, -x], [0, z, -y], [0, 0, -1.0]])
         return np.asarray(drop @ self.rotation @ np.linalg.inv(self.intrinsics))
 
-    def footprint(self, height_m: float) -> tuple[Floats, Floats]:
+    @property
+    def sky_px(self) -> Floats | None:
+        """Corners (4, 2) of what lies above the horizon, in the picture and a little beside it; or None."""
+        left, down, level = np.array([0, 0, 1.0]) @ self.rotation @ np.linalg.inv(self.intrinsics)
+        sides = np.array([-1.0, self.width_px])
+        if down >= -LEAST_DROP / self.focal_px:  # straight down, or upside down
+            return None
+        horizon = -(level + LEAST_DROP + left * sides) / down
+        if (horizon < 0).all():
+            return None
+        upper = min(float(horizon.min()), 0.0) - 1.0
+        return np.array(
+            [[sides[0], upper], [sides[1], upper], [sides[1], horizon[1]], [sides[0], horizon[0]]]
+        )
+
+    def footprint(self, height_m: float, farthest_m: float = FARTHEST_M) -> tuple[Floats, Floats]:
         """Lower and upper corner (2,) of the box around what is seen of the level at `height_m`."""
         right, bottom = self.width_px - 1.0, self.height_px - 1.0
         corners = np.array([[0, 0, 1.0], [right, 0, 1], [right, bottom, 1], [0, bottom, 1]])
         rays = corners @ np.linalg.inv(self.intrinsics).T @ self.rotation.T
         fall = np.maximum(-rays[:, 2:], LEAST_DROP)
-        reach = np.clip((self.position_m[2] - height_m) * rays[:, :2] / fall, -FARTHEST_M, FARTHEST_M)
-        reach = np.where(-rays[:, 2:] > LEAST_DROP, reach, np.sign(rays[:, :2]) * FARTHEST_M)
+        reach = np.clip((self.position_m[2] - height_m) * rays[:, :2] / fall, -farthest_m, farthest_m)
+        reach = np.where(-rays[:, 2:] > LEAST_DROP, reach, np.sign(rays[:, :2]) * farthest_m)
         seen = self.position_m[:2] + reach
         return seen.min(axis=0), seen.max(axis=0)
