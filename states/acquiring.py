@@ -8,7 +8,7 @@ from fieldnav.perception.perceive import find
 from states.agreement import Agreement
 from states.behaviour import Observation, Sight, Step, Task
 from states.guides import guide_for, steering_of
-from states.judgement import first_of
+from states.judgement import NO_FIELD, first_of, second_opinion
 from states.lane_watch import driven_m
 from states.memory import LaneMemory
 from states.names import Event
@@ -42,6 +42,7 @@ class Acquiring:
         evidence = (
             *self._agreement.evidence(Event.ROWS_FOUND),
             Evidence("rows of the lane in view", found.lane.rows_seen if found.lane else 0, None, "rows"),
+            *second_opinion(found),
             Evidence("crept", crept_m, CREEP_LIMIT_M, "m", Event.FAIL, Bound.ABOVE),
         )
         event = first_of(evidence, Event.ROWS_FOUND, Event.FAIL)
@@ -55,7 +56,8 @@ class Acquiring:
             self._lane.counts[found.lane.rows_seen] += 1
             return Step(motion, event, evidence, sight)
         if event is Event.FAIL:
-            return Step(replace(motion, twist=Twist()), event, evidence, sight, "no rows found")
+            reason = NO_FIELD if found.no_field else "no rows found"
+            return Step(replace(motion, twist=Twist()), event, evidence, sight, reason)
         self._step = Step(motion, None, evidence, sight)
         return self._step
 

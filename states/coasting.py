@@ -10,7 +10,7 @@ from fieldnav.perception.perceive import View, find
 from states.agreement import Agreement
 from states.behaviour import Observation, Sight, Step, Task
 from states.guide import Look
-from states.judgement import first_of, holds
+from states.judgement import NO_FIELD, first_of, holds, second_opinion
 from states.lane_watch import LANE_ENDED, driven_m, end_evidence, watch_end
 from states.memory import LaneMemory
 from states.names import Event
@@ -49,7 +49,7 @@ class Coasting:
         look = guide.look(frame, found.centres, seen.exposed_at(frame))
         end = watch_end(self._lane, frame, found.centres, look.rows, seen, self._direction, self._task)
         on_path = self._on_path(found, frame, look)
-        again = all(map(holds, on_path))
+        again = all(map(holds, on_path)) and not found.no_field
         self._seen_again = self._seen_again + 1 if again else 0
         self._agreement.add(found.lane)
         coasted_m = driven_m(seen, self._direction) - (self._entered_m or 0.0)
@@ -57,6 +57,7 @@ class Coasting:
         evidence = (
             *end_evidence(end, LANE_ENDED, Event.LANE_ENDED),
             *on_path,
+            *second_opinion(found),
             *self._again_evidence(),
             Evidence("coasted", coasted_m, most_m, "m", Event.FAIL, Bound.ABOVE, alone=True),
             *guide.evidence(seen.pose, lost=Event.FAIL),
@@ -65,7 +66,8 @@ class Coasting:
         if event is Event.ROWS_FOUND and found.lane and not again:
             reason = self._found(found.lane, frame, seen)
         elif event is Event.FAIL:
-            reason = guide.lost(seen.pose) or "rows lost for longer than the profile's longest gap"
+            lost = NO_FIELD if found.no_field else "rows lost for longer than the profile's longest gap"
+            reason = guide.lost(seen.pose) or lost
         sight = Sight(frame, look.rows, found.centres)
         return Step(event=event, evidence=evidence, sight=sight, reason=reason)
 

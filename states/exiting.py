@@ -10,7 +10,7 @@ from fieldnav.perception.plants import find_plants
 from states.agreement import Agreement
 from states.behaviour import Observation, Sight, Step, Task
 from states.guides import steering_of
-from states.judgement import first_of
+from states.judgement import first_of, second_opinion
 from states.lane_watch import SURE, driven_m, end_evidence, watch_end
 from states.memory import LaneMemory
 from states.names import Event
@@ -66,7 +66,8 @@ class Exiting:
         afresh = found.lane if self._agreement.add(found.lane) else None
         rows, centres = afresh.rows if afresh else guide.rows(frame.camera, pose), found.centres
         self._end = watch_end(self._lane, frame, centres, rows, seen, self._direction, self._task)
-        evidence = self._again_evidence(driven_m(seen, self._direction, frame) + self._nearest_seen_m(frame))
+        begins_m = driven_m(seen, self._direction, frame) + self._nearest_seen_m(frame)
+        evidence = (*self._again_evidence(begins_m), *second_opinion(found))
         event = first_of(evidence, Event.ROWS_SEEN_AGAIN)
         if event is None:
             return replace(self._step.continued(), evidence=evidence)

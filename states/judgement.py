@@ -3,7 +3,11 @@
 from collections.abc import Iterable
 
 from fieldnav.messages import Evidence
+from fieldnav.perception.perceive import View
+from fieldnav.perception.second_witness import BORNE_OUT
 from states.names import Event
+
+NO_FIELD = "no field in view: vegetation shows rows, and the network sees none there"
 
 
 def first_of(evidence: Iterable[Evidence], *events: Event) -> Event | None:
@@ -22,3 +26,10 @@ def comes_about(evidence: Iterable[Evidence], event: Event) -> bool:
 def holds(judged: Evidence) -> bool:
     """Whether a quantity lies on that side of its threshold which its event wants."""
     return judged.threshold is not None and judged.bound.holds(judged.value, judged.threshold)
+
+
+def second_opinion(found: View) -> tuple[Evidence, ...]:
+    """What the network says of the rows that a fresh look shows; nothing where there are none."""
+    if found.contrast is None:
+        return ()
+    return (Evidence("rows stand out for the network by", found.contrast, BORNE_OUT),)

@@ -13,7 +13,7 @@ from states.behaviour import Observation, Sight, Step, Task
 from states.drawn_lane import DrawnLane
 from states.guide import Guide
 from states.guides import guide_for
-from states.judgement import first_of
+from states.judgement import first_of, second_opinion
 from states.lane_watch import driven_m, watch_end
 from states.memory import LaneMemory
 from states.names import Event, Follow, Phase
@@ -35,6 +35,7 @@ class _Look:
 
     agreement: Agreement
     lane: LaneFit | None = None
+    no_field: bool = False
 
     def evidence(self, rows: int) -> tuple[Evidence, ...]:
         """Whether half of the rows are there, and the lane lies where following gets over it."""
@@ -83,7 +84,8 @@ class ResumingLane:
         found = find(frame.image, crop, self._task.cameras[frame.camera])
         look.lane = lane = found.lane
         look.agreement.add(lane)
-        evidence = (*look.evidence(crop.rows.per_lane), *self._turn(frame, looked_s))
+        look.no_field = found.no_field
+        evidence = (*look.evidence(crop.rows.per_lane), *second_opinion(found), *self._turn(frame, looked_s))
         sight = Sight(frame, lane.rows if lane else found.lines, found.centres)
         event = first_of(evidence, Event.PLACE_FITS)
         if event and lane:
@@ -123,12 +125,13 @@ class ResumingLane:
         lane.resumes = (direction, Phase.FOLLOW, Follow.TRACKING) if ahead else (direction, Phase.EXIT)
 
     def _misfit(self) -> str:
-        lanes = [f"{name.value} camera: {_words(look.lane)}" for name, look in self._looks.items()]
+        lanes = [f"{name.value} camera: {_words(look)}" for name, look in self._looks.items()]
         wanted = f"{self._task.crop.rows.per_lane} rows within {WIDEST_M:g} m of the robot's middle"
         return f"what is seen does not fit lane {self._lane.number}: {'; '.join(lanes)}; wanted {wanted}"
 
 
-def _words(lane: LaneFit | None) -> str:
+def _words(look: _Look) -> str:
+    lane = look.lane
     if lane is None:
-        return "no lane"
+        return "no field in view" if look.no_field else "no lane"
     return f"{lane.rows_seen} rows, {abs(lane.offset_m):.2f} m off, slope {lane.slope:.2f}"

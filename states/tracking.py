@@ -2,7 +2,9 @@
 
 from fieldnav.messages import Bound, CameraName, Direction, Evidence, Frame
 from fieldnav.perception.plants import find_plants
+from fieldnav.perception.second_witness import BORNE_OUT, contrast_in_network
 from states.behaviour import Observation, Sight, Step, Task
+from states.guide import Look
 from states.judgement import first_of
 from states.lane_watch import LANE_ENDED, driven_m, end_evidence, watch_end
 from states.memory import LaneMemory
@@ -10,6 +12,8 @@ from states.names import Event
 
 LOST_M = 0.25
 """Over so much driving may fewer than half of the rows be seen."""
+DOUBT_EVERY_M, DOUBTED_M = 0.25, 1.0
+"""How often the network is asked about the rows followed, and how far they are followed against its word."""
 
 
 class Tracking:
@@ -19,6 +23,8 @@ class Tracking:
         self.cameras: tuple[CameraName, ...] = (direction.leading,)
         self._task, self._direction, self._lane = task, direction, lane
         self._well_seen_m: float | None = None
+        self._asked_m: float | None = None
+        self._borne_out_m: float | None = None
         self._step = Step()
 
     def step(self, seen: Observation) -> Step:
@@ -35,13 +41,24 @@ class Tracking:
         look = guide.look(frame, centres, seen.exposed_at(frame))
         end = watch_end(self._lane, frame, centres, look.rows, seen, self._direction, self._task)
         self._lane.counts[look.rows_seen] += 1
-        unseen_m = self._poorly_seen_m(look.rows_seen, driven_m(seen, self._direction, frame))
+        driven = driven_m(seen, self._direction, frame)
+        unseen_m = self._poorly_seen_m(look.rows_seen, driven)
+        doubted_m = self._doubted_m(frame, look, driven)
         evidence = (
             *end_evidence(end, LANE_ENDED, Event.LANE_ENDED),
             Evidence(
                 "rows seen", look.rows_seen, crop.rows.per_lane / 2, "rows", Event.ROWS_LOST, Bound.BELOW
             ),
             Evidence("rows poorly seen over", unseen_m, LOST_M, "m", Event.ROWS_LOST, Bound.ABOVE),
+            Evidence(
+                "rows not borne out by the network over",
+                doubted_m,
+                DOUBTED_M,
+                "m",
+                Event.ROWS_LOST,
+                Bound.ABOVE,
+                alone=True,
+            ),
             *guide.evidence(seen.pose),
         )
         event = first_of(evidence, Event.LANE_ENDED, Event.ROWS_LOST)
@@ -51,3 +68,14 @@ class Tracking:
         if self._well_seen_m is None or 2 * rows_seen >= self._task.crop.rows.per_lane:
             self._well_seen_m = driven
         return driven - self._well_seen_m
+
+    def _doubted_m(self, frame: Frame, look: Look, driven: float) -> float:
+        """How far the rows that vegetation shows have been followed while the network saw none of them."""
+        crop, camera = self._task.crop, self._task.cameras[frame.camera]
+        if self._borne_out_m is None or not look.rows or not crop.finding.second_witness:
+            self._borne_out_m = driven
+        elif self._asked_m is None or driven - self._asked_m >= DOUBT_EVERY_M:
+            self._asked_m = driven
+            if contrast_in_network(frame.image, look.rows, crop, camera) >= BORNE_OUT:
+                self._borne_out_m = driven
+        return driven - self._borne_out_m

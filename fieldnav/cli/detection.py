@@ -107,4 +107,4 @@ def _found(image: Image, crop: CropProfile | None, camera: Pinhole | None) -> tu
         found = find_unposed(image, crop)
         return found.view, found.camera
     assert crop is not None, "a robot brings a crop with it"
-    return find(image, crop, camera, pose_known=False, both_witnesses=True), camera
+    return find(image, crop, camera, pose_known=False), camera

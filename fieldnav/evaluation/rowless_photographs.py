@@ -71,9 +71,7 @@ def _figures(
         wrong[UNKNOWN] += bool(find(image, None).sure().lines)
         large = as_large(camera, image)
         wrong[KNOWN] += reports_row(find_with_camera(image, crop, large))
-        wrong[POSE_UNKNOWN] += reports_row(
-            find_with_camera(image, crop, large, pose_known=False, both_witnesses=True)
-        )
+        wrong[POSE_UNKNOWN] += reports_row(find_with_camera(image, crop, large, pose_known=False))
     source = "" if best_known is None else NETWORK
     return [
         Figure(

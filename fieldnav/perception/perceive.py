@@ -6,10 +6,11 @@ from fieldnav.messages import Centres, Floats, Image, RowLine
 from fieldnav.perception.canopy import canopy_plane
 from fieldnav.perception.comb.search_range import range_of
 from fieldnav.perception.finders import find_rows, in_whole
-from fieldnav.perception.found import Found
+from fieldnav.perception.found import NO_ROWS, Found
 from fieldnav.perception.ground_plants import on_ground
 from fieldnav.perception.lane import LaneFit, lane_rows
 from fieldnav.perception.plants import plants_in
+from fieldnav.perception.second_witness import BORNE_OUT, contrast_in_network
 from fieldnav.perception.settle import settle
 from fieldnav.perception.vegetation import Cover, vegetation_of
 from fieldnav.perception.witnessed import find_witnessed
@@ -24,7 +25,8 @@ class View:
     cover and centres: its vegetation and the plants; lines: every row it shows, left to right; paths_px: the
     same rows as curves, shape (rows, points, 2), x and y from the upper edge of the ground to the lower edge;
     lane: the rows under the robot, None when there are none; field: the probability that the picture shows a
-    field of rows at all, None where only vegetation was looked at.
+    field of rows at all, None for a camera whose pose is known; contrast: how far the rows that vegetation
+    shows there stand out of what the network sees, -1 to 1, None where it was not asked.
     """
 
     cover: Cover
@@ -33,6 +35,12 @@ class View:
     paths_px: Floats
     lane: LaneFit | None
     field: float | None = None
+    contrast: float | None = None
+
+    @property
+    def no_field(self) -> bool:
+        """Whether vegetation shows rows that the network does not see: a verge, a hedge, something green."""
+        return self.contrast is not None and self.contrast < BORNE_OUT
 
 
 def find(
@@ -41,18 +49,17 @@ def find(
     camera: Pinhole,
     widest_offset_m: float | None = None,
     pose_known: bool = True,
-    both_witnesses: bool = False,
 ) -> View:
     """Find the rows of a frame without knowing any before; see `lane_rows` for `widest_offset_m`.
 
-    pose_known: whether the camera's pose is known but for calibration and shaking; both_witnesses: for a
-    picture that may show no field at all, where rows must be borne out by the network too (`witnessed`), and
-    there is no lane without any.
+    pose_known: whether the pose is that of the file but for calibration and shaking. If so, vegetation shows
+    rows, and the network has to bear one of them out (`second_witness`). If not, they are what both show
+    together (`witnessed`).
     """
     cover = vegetation_of(image, crop.vegetation, camera.top_px)
     centres = plants_in(cover, crop.vegetation, camera)
     field = None
-    if not both_witnesses or crop.finding.method is not RowFinder.COMB:
+    if pose_known or crop.finding.method is not RowFinder.COMB:
         found = find_rows(cover, centres, crop, camera, pose_known)
     else:
         plane = canopy_plane(camera, crop)
@@ -60,9 +67,13 @@ def find(
         ground, top_px = cover.below(plane.top_px)
         witnessed = find_witnessed(image[int(top_px) :], ground, crop.vegetation, tried)
         found, field = in_whole(witnessed.found, ground.height_px, top_px), witnessed.field
-    sure = found.sure()
-    lane = _lane(found, centres, crop, camera, widest_offset_m) if not both_witnesses or sure.lines else None
-    return View(cover, centres, sure.lines, sure.paths_px, lane, field)
+    sure, contrast = found.sure(), None
+    lane = _lane(found, centres, crop, camera, widest_offset_m) if pose_known or sure.lines else None
+    if pose_known and crop.finding.second_witness and (lane or sure.lines):
+        contrast = contrast_in_network(image, lane.rows if lane else sure.lines, crop, camera)
+        if contrast < BORNE_OUT:
+            sure, lane = NO_ROWS, None
+    return View(cover, centres, sure.lines, sure.paths_px, lane, field, contrast)
 
 
 def lane_of(

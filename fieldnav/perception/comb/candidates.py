@@ -76,26 +76,27 @@ def candidates_in(
     found += [_of_vegetation(comb, bands, cover, Source.VEGETATION) for comb in combs]
     if combs:
         best = fitted(max(combs, key=lambda comb: comb.response(bands)), evidence)
-        found.append(_straight(best, evidence, cover))
+        found.append(_straight(best, bands, cover))
     return [each for each in [*found, *_near(image, tried, vegetation)] if len(each.paths_px)]
 
 
 def _straight_and_bent(bands: Bands, evidence: Bands, cover: Cover) -> list[Candidate]:
     """What both witnesses show together; the best of it also as curves, which vegetation alone tells well."""
     straight = straight_combs(evidence)[:STRAIGHT]
-    found = [_straight(each, evidence, cover) for each in straight]
+    found = [_straight(each, bands, cover) for each in straight]
     if not straight or convergence_of(straight[0].comb) < BENDABLE:
         return found
     comb = straight[0].comb
     gently = refine(comb, evidence, GENTLY)
-    found.append(_candidate(gently, rows_of(gently, evidence, GENTLE_SCATTER, IN_VIEW), cover, Source.BENT))
+    found.append(_candidate(gently, rows_of(gently, bands, GENTLE_SCATTER, IN_VIEW), cover, Source.BENT))
     for stiffness in OBLIQUE_VIEW:
         comb = refine(comb, bands, stiffness)
     return [*found, _candidate(comb, rows_of(comb, bands, OBLIQUE_SCATTER, IN_VIEW), cover, Source.BENT)]
 
 
-def _straight(found: FittedComb, evidence: Bands, cover: Cover) -> Candidate:
-    rows = rows_of(found.comb, evidence, STEEP_SCATTER, IN_VIEW)
+def _straight(found: FittedComb, bands: Bands, cover: Cover) -> Candidate:
+    """Its rows where vegetation has them, which is sharper than the network's picture."""
+    rows = rows_of(found.comb, bands, STEEP_SCATTER, IN_VIEW)
     return _candidate(found.comb, rows, cover, Source.STRAIGHT)
 
 

@@ -66,7 +66,10 @@ class RowJudge(BaseModel):
 
 @dataclass(frozen=True, slots=True)
 class CandidateMeasures:
-    """What both witnesses say of one candidate; agreement: with the candidates of the other kind."""
+    """What both witnesses say of one candidate.
+
+    agreement: with the candidates of the other kind; surest: how sure vegetation by itself is of any of them.
+    """
 
     candidate: Candidate
     rows: PlacedRows
@@ -76,6 +79,7 @@ class CandidateMeasures:
     heat: float
     field: float
     agreement: float
+    surest: float
 
     def features(self) -> Floats:
         """What speaks for or against the candidate, shape (features,)."""
@@ -108,6 +112,10 @@ class CandidateMeasures:
                 float(count == PAIR),
                 log(max(count, NONE_SEEN)),
                 self.candidate.rows_across,
+                self.candidate.sure,
+                self.candidate.sure * self.agreement,
+                self.candidate.sure * self.field,
+                self.surest,
                 *(float(self.candidate.source is source) for source in Source),
             ]
         )
@@ -134,6 +142,7 @@ def measure(candidates: Sequence[Candidate], cover: Cover, heat: RowHeat) -> lis
     green = np.asarray(cover.strength / np.float32(FULL), np.float32)
     warm = np.asarray(cv2.blur(heat.centres.astype(np.float32) / FULL, BLUR), np.float32)
     rows = [placed(each, cover.width_px, cover.height_px) for each in candidates]
+    surest = max((each.sure for each in candidates), default=0.0)
     return [
         CandidateMeasures(
             each,
@@ -144,6 +153,7 @@ def measure(candidates: Sequence[Candidate], cover: Cover, heat: RowHeat) -> lis
             float(warm[len(warm) // 3 :].mean()),
             heat.field,
             _agreement(number, candidates, rows),
+            surest,
         )
         for number, (each, own) in enumerate(zip(candidates, rows, strict=True))
     ]
