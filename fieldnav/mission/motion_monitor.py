@@ -155,7 +155,7 @@ class MotionMonitor:
     def _may_be_further(self, seen: SeenMotion, moved_m: float) -> bool:
         """Where pitch moves the ground by decimetres, what is found at the search's edge lies beyond."""
         edge_m = moved_m + self._shake_m - EDGE_CELLS * self._view.cell_m
-        return self._view.shake_share > 1 and abs(seen.ahead_m) > edge_m
+        return self._view.oblique and abs(seen.ahead_m) > edge_m
 
     def _views(
         self, before_s: float, now_s: float, camera: CameraName, track: Track

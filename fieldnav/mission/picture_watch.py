@@ -147,7 +147,7 @@ class PictureWatch:
         if before is not None:
             moved_m = track.at(before.stamp_s).distance_m(pose)
             # Where pitch moves the ground by decimetres, a picture is held against the very next one.
-            soon = self._view.shake_share == 1 and frame.stamp_s - before.stamp_s < COMPARED_S
+            soon = not self._view.oblique and frame.stamp_s - before.stamp_s < COMPARED_S
             if moved_m < COMPARED_M and soon:
                 return None
         now = View(self._view.look(frame.image), frame.stamp_s)

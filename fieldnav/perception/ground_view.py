@@ -74,7 +74,8 @@ class SeenMotion:
 class GroundView:
     """Maps the ground in front of one camera, and finds the ground of one map again in another.
 
-    shake_share: how far the robot's pitch moves the ground along the map, against a camera that looks down.
+    oblique: whether the camera looks so far ahead that pitch moves the ground further than the robot drives
+    from one picture to the next; shake_share: how far it moves it, against a camera that looks down.
     """
 
     def __init__(self, camera: Pinhole) -> None:
@@ -86,11 +87,11 @@ class GroundView:
         # A camera that looks far would map many metres: as far as it is wide is enough, and less where pitch
         # moves what is far away.
         far_m = float(np.nan_to_num(upper[0] - near_m, nan=np.inf))
-        oblique = camera.tilt_rad < OBLIQUE_RAD
-        length_m = min(far_m, 2 * half_m, OBLIQUE_LENGTH_M if oblique else np.inf)
+        self.oblique = camera.tilt_rad < OBLIQUE_RAD
+        length_m = min(far_m, 2 * half_m, OBLIQUE_LENGTH_M if self.oblique else np.inf)
         self.cell_m = sqrt(2 * half_m * length_m / MAP_CELLS)
         self.middle_m = near_m + length_m / 2
-        self.shake_share = _shake_share(camera, self.middle_m - camera.forward_m) if oblique else 1.0
+        self.shake_share = _shake_share(camera, self.middle_m - camera.forward_m) if self.oblique else 1.0
         self._size = (round(2 * half_m / self.cell_m), round(length_m / self.cell_m))
         cells = np.array([[0, 0], [1, 0], [1, 1], [0, 1]], np.float32) * (np.array(self._size) - 1)
         ground = np.stack(
@@ -150,7 +151,7 @@ class GroundView:
     def _contrast(self, before: FineMap, after: FineMap, reach: int) -> float:
         """What both maps show; where shaking moves the ground far, within the part that is looked for."""
         least = min(before.contrast, after.contrast)
-        if self.shake_share == 1:
+        if not self.oblique:
             return least
         return min(least, float(cv2.meanStdDev(_middle(before, reach))[1][0, 0]))
 

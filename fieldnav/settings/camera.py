@@ -10,13 +10,10 @@ from fieldnav.messages import CameraName
 from fieldnav.pinhole import Pinhole
 from fieldnav.settings.model import Settings
 
-HORIZON_MARGIN_DEG = 5.0
-"""Chosen: an image whose upper edge looks at least so far below the horizon counts as a whole: it shows
-ground within 11 camera heights."""
 FURTHEST_DEG, FURTHEST_M = 10.0, 8.0
-"""Chosen: of other images the ground counts that is so far below the horizon, within 5.7 camera heights,
-and no further away. A camera that hangs 1.5 degrees otherwise than its file says places ground a camera
-height too far there, at 5 degrees five; and where a lane ends is decided by 8 m of it."""
+"""Chosen: ground counts that is so far below the horizon, within 5.7 camera heights, and no further away. A
+camera that hangs 1.5 degrees otherwise than its file says places ground a camera height too far there, at 5
+degrees five; and where a lane ends is decided by 8 m of it."""
 MIN_TILT_DEG, MAX_TILT_DEG = 10, 90
 MAX_VIEW_DEG = 150
 LARGEST_SIDE_PX = 8192
@@ -66,16 +63,14 @@ class CameraSettings(Settings):
 
     @property
     def _looks_at_horizon(self) -> bool:
-        """Whether the upper edge looks at the horizon, or nearly."""
-        return self.tilt_deg < HORIZON_MARGIN_DEG + self._half_view_deg
+        """Whether the upper edge looks at the horizon or above it."""
+        return self.tilt_deg <= self._half_view_deg
 
     def pinhole(self) -> Pinhole:
         tilt_rad = radians(self.tilt_deg)
         camera = Pinhole(
             self.width_px, self.height_px, self._focal_px, self.height_m, tilt_rad, self.distance_m
         )
-        if not self._looks_at_horizon:
-            return camera
         below_rad = max(radians(FURTHEST_DEG), atan(self.height_m / FURTHEST_M))
         return replace(camera, top_px=max(0.0, camera.seen_at_px(min(below_rad, tilt_rad))))
 

@@ -4,6 +4,7 @@ from collections.abc import Callable, Iterator
 from dataclasses import replace
 from functools import cache
 from math import hypot
+from typing import Any
 
 import cv2
 import numpy as np
@@ -18,12 +19,15 @@ from fieldnav.mission.picture_watch import PictureWatch
 from fieldnav.odometry import Pose, Track
 from fieldnav.settings.kinds import Kind
 from fieldnav.settings.loading import load_crop, load_field, load_robot, names_of, revised
+from fieldnav.settings.robot import Robot
 from fieldnav.simulation.camera import SimulatedCamera
 from fieldnav.simulation.plan import FieldPlan, sow
 from fieldnav.simulation.renderer import FieldRenderer
 from fieldnav.simulation.world import module_errors
 
 ROBOT = smaller(load_robot("bonnbot"))
+TILT_DEG = ROBOT.cameras.front.tilt_deg
+OBLIQUE_DEG = (35, 45)
 FRAME_S = 1 / ROBOT.cameras.front.rate_hz
 MAX_DELAY_S = ROBOT.timeouts.frame_s
 FOLLOWED_MPS, SIDESTEP_MPS = 0.5, 0.15
@@ -40,14 +44,22 @@ Shown = Callable[[list[Frame]], Image]
 
 
 @cache
-def field_of(crop: str) -> tuple[TickingWorld, ObedientWheels, dict[CameraName, SimulatedCamera]]:
+def tilted(tilt_deg: float) -> Robot:
+    cameras: dict[str, dict[str, Any]] = ROBOT.model_dump(mode="json")["cameras"]
+    return revised(ROBOT, {"cameras": {name: it | {"tilt_deg": tilt_deg} for name, it in cameras.items()}})
+
+
+@cache
+def field_of(
+    crop: str, tilt_deg: float
+) -> tuple[TickingWorld, ObedientWheels, dict[CameraName, SimulatedCamera]]:
     """A weedy, windy field of a crop, drawn as it looks, on which the robot shakes."""
     weeds = load_field("sim-dense-weed").weeds.model_dump(mode="json")
     changes = {"lanes": 1, "length_m": 18, "crop": crop, "wind_mps": 5, "weeds": weeds}
     field, profile = revised(load_field("demo"), changes), load_crop(crop)
     plan: FieldPlan = sow(field, profile, Side.RIGHT)
     wheels = ObedientWheels(module_errors(field.wheel_errors, field.seed, field.mirrored))
-    world = TickingWorld(plan, field, ROBOT, wheels)
+    world = TickingWorld(plan, field, tilted(tilt_deg), wheels)
     renderer = FieldRenderer(plan, field, profile)
     return world, wheels, {name: SimulatedCamera(name, world, renderer) for name in CameraName}
 
@@ -56,15 +68,17 @@ class Drive:
     """A camera on a robot that starts in the middle of a lane; driven_m: what it has come since the lie
     began."""
 
-    def __init__(self, crop: str, camera: CameraName, way: tuple[float, float] = ALONG) -> None:
-        self.world, self._wheels, cameras = field_of(crop)
+    def __init__(
+        self, crop: str, camera: CameraName, way: tuple[float, float] = ALONG, tilt_deg: float = TILT_DEG
+    ) -> None:
+        self.world, self._wheels, cameras = field_of(crop, tilt_deg)
         first_m, last_m = self.world.plan.lane_span_m(0)
         along_m = {ALONG: first_m + 1.0, BACK: last_m - 1.0}.get(way, (first_m + last_m) / 2)
         middle = self.world.plan.centreline.position(along_m, 0.0)
         start = Pose(float(middle[0]), float(middle[1]), self.world.now.pose.heading_rad)
         self.world.now = replace(self.world.now, pose=start)
         self._camera, self.way, self._begun_s = cameras[camera], way, self.world.now.stamp_s
-        self.watch = PictureWatch(ROBOT.cameras.get(camera).pinhole(), MAX_DELAY_S)
+        self.watch = PictureWatch(tilted(tilt_deg).cameras.get(camera).pinhole(), MAX_DELAY_S)
         self.track, self.frames, self.driven_m = Track(300), list[Frame](), 0.0
         self.said: list[Trouble] = []
 
@@ -131,6 +145,20 @@ def test_pictures_that_move_as_the_wheels_say_are_never_accused(
     drive = Drive(crop, camera, way)
     assert drive.go(1.5 if way is not ASIDE else 0.4) is None
     assert not drive.said
+
+
+@pytest.mark.parametrize("tilt_deg", OBLIQUE_DEG)
+def test_a_camera_that_looks_obliquely_is_accused_only_once_its_pictures_freeze_or_are_old(
+    tilt_deg: float,
+) -> None:
+    drive, late = Drive("sugar-beet", FRONT, tilt_deg=tilt_deg), round(2.0 / FRAME_S)
+    assert drive.go(1.5) is None
+    assert not drive.said and not drive.watch.motion.delay_s
+    still = drive.frames[-1].image
+    assert drive.go(0.1, lambda frames: with_clock(still, len(frames))) is None
+    assert {each.fault for each in drive.said} == {FaultKind.CAMERA_FROZEN}
+    assert drive.go(2.0, lambda frames: frames[-1 - late].image) is FaultKind.CAMERA_PAST
+    assert drive.driven_m <= NOTICED_M
 
 
 @pytest.mark.parametrize("crop", SOME_CROPS)

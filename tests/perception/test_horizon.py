@@ -1,4 +1,4 @@
-"""A camera that has the horizon in view: the ground that counts ends below it."""
+"""A camera that looks at the horizon, or nearly: the ground that counts ends below it."""
 
 from math import atan, degrees, radians, tan
 
@@ -14,6 +14,7 @@ from fieldnav.perception.ground_plants import FAR_M, on_ground
 from fieldnav.perception.ground_view import GroundView
 from fieldnav.perception.perceive import find
 from fieldnav.perception.plants import find_plants
+from fieldnav.perception.sidestep.passing_rows import LENGTH_M, usual_length_m
 from fieldnav.perception.vegetation import vegetation_of
 from fieldnav.pinhole import Pinhole
 from fieldnav.settings.camera import FURTHEST_DEG, FURTHEST_M
@@ -55,22 +56,27 @@ def with_trees(image: Image, seen: Pinhole) -> Image:
     return wooded
 
 
-@pytest.mark.parametrize("tilt_deg", [27, 45, 65, 90])
+@pytest.mark.parametrize("tilt_deg", [32, 45, 65, 90])
 def test_a_camera_that_looks_at_ground_alone_uses_all_of_its_image(tilt_deg: float) -> None:
     seen = camera(tilt_deg)
 
     assert seen.top_px == canopy_plane(seen, CROP).top_px == 0
     assert seen.ground_middle_px == seen.centre_y_px and seen.sky_px == 0
-    assert (GroundView(seen).shake_share == 1) == (tilt_deg > 52)
+    assert GroundView(seen).oblique == (tilt_deg < 52)
 
 
-@pytest.mark.parametrize("tilt_deg", [*OBLIQUE_DEG, 26])
+@pytest.mark.parametrize("tilt_deg", [*OBLIQUE_DEG, 30])
 def test_ground_counts_up_to_ten_degrees_below_the_horizon(tilt_deg: float) -> None:
     seen = camera(tilt_deg)
 
     ahead_m = seen.view_m[1] - seen.forward_m
     assert degrees(atan(seen.height_m / ahead_m)) == pytest.approx(FURTHEST_DEG)
     assert seen.horizon_px < seen.top_px <= seen.centre_y_px
+
+
+@pytest.mark.parametrize(("tilt_deg", "length_m"), [(90, LENGTH_M), (65, LENGTH_M), (45, 0.9), (30, 2.4)])
+def test_the_flatter_a_camera_looks_the_more_of_a_row_is_in_view(tilt_deg: float, length_m: float) -> None:
+    assert usual_length_m(camera(tilt_deg)) == pytest.approx(length_m, abs=0.1)
 
 
 def test_ground_of_a_high_camera_counts_up_to_eight_metres_but_half_the_image_does_in_any_case() -> None:

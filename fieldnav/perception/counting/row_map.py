@@ -9,7 +9,7 @@ from scipy.ndimage import gaussian_filter1d, maximum_filter1d
 from scipy.signal import find_peaks, peak_prominences
 
 from fieldnav.messages import Floats
-from fieldnav.perception.comb.bands import BAND_COUNT, STRETCHES
+from fieldnav.perception.comb.bands import BAND_COUNT
 from fieldnav.perception.counting.levelled import PLACES, STEP, Levelled
 
 SMOOTH = 0.06  # of the row spacing: standard deviation of the blur across the rows, half a narrow canopy
@@ -20,17 +20,13 @@ SEPARATE = 0.5  # of a row's vegetation, by which it stands out from any denser 
 MIN_CONTRAST = 0.55  # of a row against the ground halfway to its neighbours, 0 to 1
 NOTHING = 0.02  # strength that is added before a contrast is taken
 MIN_VEGETATION = 0.085  # of a row, times its contrast; scattered weeds of 5 cm in line have less
-MIN_REACH = 0.46  # of the picture's height, from a row's first plant to its last; a tuft reaches less far
-MIN_STRETCHES = 3  # of the height's six that must show plants of a row
-MIN_COVERED = 0.25  # of a row's length that must show plants
+MIN_REACH = 0.45  # of the picture's height, from a row's first plant to its last; a tuft reaches less far
 MIN_SHARE = 0.2  # of the densest row's vegetation, that every row has
-MIN_SHARE_ASKEW = 0.3  # the same, of a row whose plants do not keep in line: weeds between rows do not either
 
-IN_LINE = 0.036  # row spacings, rms, that drilled plants stand beside their line; weeds stand further off
+IN_LINE = 0.04  # row spacings, rms, that drilled plants stand beside their line: 1.4 cm of 0.35 m; weeds more
 CORRIDOR = 0.15  # row spacings to either side of a line, within which the plants are its own
 MIN_SPARSE = 0.035  # vegetation, times its contrast, of a row of few or small plants that keep in line
-MIN_SPARSE_STRETCHES = 4  # of the height's six that such a row's plants stand in
-MIN_SPARSE_COVERED = 0.35  # of its length that must show plants
+MIN_SPARSE_COVERED = 0.35  # of such a row's length that must show plants
 
 BESIDE = 0.12  # of the distance between rows, by which a row is off its place beside another
 MIN_ROWS = 2  # that show their distance
@@ -72,9 +68,9 @@ def rows_on(strip: RowMap, spacing: float) -> Floats:
     """Where the rows run at mid-height, from left to right, in widths; spacing: roughly, in widths."""
     ridges = _ridges(strip, spacing)
     places = np.asarray(strip.places[ridges.peaks])
-    sure = ridges.stand_out & ridges.reach_far & (ridges.are_dense | ridges.are_sparse)
+    sure = ridges.stand_out & ((ridges.are_dense & ridges.reach_far) | ridges.are_sparse)
     share = ridges.on / max(float(ridges.on[sure].max(initial=0.0)), NOTHING)
-    sure &= share >= np.where(ridges.are_in_line, MIN_SHARE, MIN_SHARE_ASKEW)
+    sure &= share >= MIN_SHARE
     # Three plants, or what a gap leaves of a row, are a row only where the next one belongs.
     few = ridges.stand_out & ridges.are_in_line & (ridges.are_dense | ridges.are_few)
     few &= share >= MIN_SHARE_BESIDE
@@ -110,10 +106,6 @@ class _Ridges:
         return np.asarray(self.plants.mean(axis=0))
 
     @property
-    def stretches(self) -> NDArray[np.int64]:
-        return np.asarray((STRETCHES @ self.plants > 0).sum(axis=0))
-
-    @property
     def stand_out(self) -> NDArray[np.bool_]:
         """Whether the ground to either side is emptier."""
         return np.asarray((self.contrast >= MIN_CONTRAST) & (self.prominence >= SEPARATE))
@@ -122,18 +114,16 @@ class _Ridges:
     def reach_far(self) -> NDArray[np.bool_]:
         """Whether plants stand along the line, not in one place."""
         length = len(self.plants) - self.plants.argmax(axis=0) - self.plants[::-1].argmax(axis=0)
-        far = length >= MIN_REACH * len(self.plants)
-        return np.asarray(self.plants.any(axis=0) & far & (self.stretches >= MIN_STRETCHES))
+        return np.asarray(self.plants.any(axis=0) & (length >= MIN_REACH * len(self.plants)))
 
     @property
     def are_dense(self) -> NDArray[np.bool_]:
-        return np.asarray((self.on * self.contrast >= MIN_VEGETATION) & (self.covered >= MIN_COVERED))
+        return np.asarray(self.on * self.contrast >= MIN_VEGETATION)
 
     @property
     def are_sparse(self) -> NDArray[np.bool_]:
-        """Whether few or small plants keep in line as drilled ones do, over most of the height."""
-        along = (self.covered >= MIN_SPARSE_COVERED) & (self.stretches >= MIN_SPARSE_STRETCHES)
-        return np.asarray(self.are_few & along & self.are_in_line)
+        """Whether few or small plants keep in line as drilled ones do, over much of the height."""
+        return np.asarray(self.are_few & self.are_in_line & (self.covered >= MIN_SPARSE_COVERED))
 
     @property
     def are_few(self) -> NDArray[np.bool_]:

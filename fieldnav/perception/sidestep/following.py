@@ -43,7 +43,7 @@ def follow(
     row = belonging(across, plants.weight, crossing.places_m, crop)
     crossing = _judged(crossing, plants, row, moved, crop, camera)
     if moved.distance_m > 0 or crossing.usual_mass > 0:
-        crossing = met(crossing, across, plants.weight, row, crop)
+        crossing = met(crossing, across, plants.weight, row, crop, camera)
     return forgotten(crossing, crop)
 
 

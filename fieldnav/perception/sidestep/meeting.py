@@ -8,6 +8,7 @@ from numpy.typing import NDArray
 from fieldnav.messages import Floats
 from fieldnav.perception.sidestep.passing_rows import Crossing, PassingRow, only, with_row
 from fieldnav.perception.sidestep.row_words import words
+from fieldnav.pinhole import Pinhole
 from fieldnav.settings.crop import CropProfile
 
 WINDOW = 1.0
@@ -27,7 +28,12 @@ FORGOTTEN = -2.0
 
 
 def met(
-    crossing: Crossing, across: Floats, weight: Floats, row: NDArray[np.int64], crop: CropProfile
+    crossing: Crossing,
+    across: Floats,
+    weight: Floats,
+    row: NDArray[np.int64],
+    crop: CropProfile,
+    camera: Pinhole,
 ) -> Crossing:
     """With the row, if any, that the plants of no row show beyond the old lane and within the view."""
     if len(crossing.rows) >= MOST_ROWS:
@@ -36,7 +42,7 @@ def met(
     away = np.abs(across[:, None] - crossing.places_m[None, :]).min(axis=1)
     free = (row < 0) & (across > edge_m) & (away > APART * crop.rows.spacing_m)
     place = _heaviest(across[free], weight[free], crossing.usual_mass, crossing.viewed_m, crop)
-    return crossing if place is None else with_row(crossing, PassingRow(place), crop)
+    return crossing if place is None else with_row(crossing, PassingRow(place), crop, camera)
 
 
 def _heaviest(

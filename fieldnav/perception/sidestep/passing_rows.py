@@ -19,8 +19,8 @@ LOOK_AT = 0.25
 """The image row at which rows are placed, over the height of the ground in the image."""
 FIRST_PLACE_M = 0.03
 """Standard deviation of a row's place as the lane's rows gave it."""
-LENGTH_M = 0.5
-"""Of a row just met that is in view past its end."""
+LENGTH_M, LENGTH_SHARE = 0.5, 0.5
+"""Of a row just met that is in view past its end: at least so much, and that share of the ground in view."""
 LEAST_LENGTH_M = 0.2
 UNIFORM = sqrt(12.0)
 """A length over the standard deviation of places spread evenly over it."""
@@ -96,12 +96,18 @@ def begin(
     ground = np.array([plane.row_on_ground(row) for row in rows])
     across = sorted(outward * (ground[:, 0] + ground[:, 1] * look_at_m(plane)))
     known = tuple(PassingRow(float(place), of_old_lane=True) for place in across)
-    count = len(known)
-    spread = np.repeat([FIRST_PLACE_M, lean_sd(crop), slope_sd, TILT_RAD, SCALE], [count, count, 1, 1, 1])
+    count, leans = len(known), lean_sd(crop, usual_length_m(plane))
+    spread = np.repeat([FIRST_PLACE_M, leans, slope_sd, TILT_RAD, SCALE], [count, count, 1, 1, 1])
     return Crossing(outward, known, float(ground[:, 1].mean()), np.diag(np.square(spread)))
 
 
-def lean_sd(crop: CropProfile, length_m: float = LENGTH_M) -> float:
+def usual_length_m(plane: Pinhole) -> float:
+    """How much of a row is in view past its end: a camera that looks obliquely shows metres of it."""
+    near_m, far_m = plane.view_m
+    return max(LENGTH_M, LENGTH_SHARE * (far_m - near_m))
+
+
+def lean_sd(crop: CropProfile, length_m: float) -> float:
     """Standard deviation of the slope that the plants in view of a row have against the row's.
 
     length_m: of the row that is in view.
@@ -111,13 +117,14 @@ def lean_sd(crop: CropProfile, length_m: float = LENGTH_M) -> float:
     return hypot(NOT_PARALLEL, STRAY_M / sqrt(plants) * UNIFORM / length_m)
 
 
-def with_row(crossing: Crossing, row: PassingRow, crop: CropProfile) -> Crossing:
+def with_row(crossing: Crossing, row: PassingRow, crop: CropProfile, camera: Pinhole) -> Crossing:
     """With one more row, whose place is known no better than a single look tells."""
     count = len(crossing.rows)
     at = [count, 2 * count]
     covariance = np.insert(np.insert(crossing.covariance, at, 0.0, axis=0), at, 0.0, axis=1)
     covariance[count, count] = FIRST_PLACE_M**2
-    covariance[2 * count + 1, 2 * count + 1] = lean_sd(crop) ** 2
+    length_m = usual_length_m(canopy_plane(camera, crop))
+    covariance[2 * count + 1, 2 * count + 1] = lean_sd(crop, length_m) ** 2
     return replace(crossing, rows=(*crossing.rows, row), covariance=covariance)
 
 

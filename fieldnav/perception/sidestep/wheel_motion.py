@@ -11,7 +11,7 @@ import numpy as np
 from fieldnav.messages import CameraName, Floats
 from fieldnav.odometry import Pose
 from fieldnav.perception.canopy import canopy_plane
-from fieldnav.perception.sidestep.passing_rows import LENGTH_M, Crossing, lean_sd, look_at_m
+from fieldnav.perception.sidestep.passing_rows import Crossing, lean_sd, look_at_m, usual_length_m
 from fieldnav.pinhole import Pinhole
 from fieldnav.settings.crop import CropProfile
 
@@ -85,6 +85,8 @@ def carried(crossing: Crossing, moved: Travelled, crop: CropProfile, camera: Pin
 
 def _lean_variance(crossing: Crossing, crop: CropProfile, camera: Pinhole) -> Floats:
     """Variance of each row's lean by the length of it in view, shape (rows,)."""
-    near_m, far_m = canopy_plane(camera, crop).view_m
-    ends = [row.end_m if isfinite(row.end_m) else far_m - LENGTH_M for row in crossing.rows]
+    plane = canopy_plane(camera, crop)
+    near_m, far_m = plane.view_m
+    unseen_m = far_m - usual_length_m(plane)
+    ends = [row.end_m if isfinite(row.end_m) else unseen_m for row in crossing.rows]
     return np.array([lean_sd(crop, far_m - max(near_m, end_m)) ** 2 for end_m in ends])
