@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from fieldnav.messages import Centres, Floats, Image, RowLine
 from fieldnav.perception.canopy import canopy_plane
 from fieldnav.perception.comb.search_range import range_of
-from fieldnav.perception.finders import find_rows, in_whole
+from fieldnav.perception.finders import Shown, find_rows, in_whole
 from fieldnav.perception.found import NO_ROWS, Found
 from fieldnav.perception.ground_plants import on_ground
 from fieldnav.perception.lane import LaneFit, lane_rows
@@ -60,7 +60,7 @@ def find(
     centres = plants_in(cover, crop.vegetation, camera)
     field = None
     if pose_known or crop.finding.method is not RowFinder.COMB:
-        found = find_rows(cover, centres, crop, camera, pose_known)
+        found = find_rows(Shown(image, cover, centres), crop, camera, pose_known)
     else:
         plane = canopy_plane(camera, crop)
         tried = range_of(plane, crop.rows.spacing_m, pose_known)
@@ -74,18 +74,6 @@ def find(
         if contrast < BORNE_OUT:
             sure, lane = NO_ROWS, None
     return View(cover, centres, sure.lines, sure.paths_px, lane, field, contrast)
-
-
-def lane_of(
-    cover: Cover,
-    centres: Centres,
-    crop: CropProfile,
-    camera: Pinhole,
-    widest_offset_m: float | None = None,
-) -> LaneFit | None:
-    """The lane under the robot among vegetation already found; None when there is none."""
-    found = find_rows(cover, centres, crop, camera)
-    return _lane(found, centres, crop, camera, widest_offset_m)
 
 
 def _lane(

@@ -6,7 +6,7 @@ from math import atan, sin
 from fieldnav.messages import Image
 from fieldnav.perception.comb.candidates import Candidate
 from fieldnav.perception.comb.search_range import any_camera
-from fieldnav.perception.finders import find_rows
+from fieldnav.perception.finders import Shown, find_rows
 from fieldnav.perception.found import NO_ROWS
 from fieldnav.perception.perceive import View
 from fieldnav.perception.plants import NO_PLANTS, plants_in
@@ -44,7 +44,7 @@ def find_unposed(image: Image, crop: CropProfile | None) -> Unposed:
     camera = _camera_of(witnessed.candidate, cover, spacing_m or SPACING_M)
     centres = plants_in(cover, vegetation, camera)
     if crop is not None and crop.finding.method is not RowFinder.COMB:
-        found = find_rows(cover, centres, crop, camera).sure()
+        found = find_rows(Shown(image, cover, centres), crop, camera).sure()
     view = View(cover, centres, found.lines, found.paths_px, None, witnessed.field)
     return Unposed(view, camera)
 

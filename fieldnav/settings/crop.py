@@ -20,10 +20,14 @@ class VegetationIndex(Enum):
 
 
 class RowFinder(Enum):
-    """The method that finds rows in a fresh frame: the paper's, or the comb that explains it best."""
+    """The method that finds rows in a fresh frame: the paper's, or a comb that explains it best.
+
+    The comb is fitted to vegetation, or to what the network sees.
+    """
 
     MOVING_VARIANCE = "moving_variance"
     COMB = "comb"
+    NETWORK = "network"
 
 
 class Rows(Settings):

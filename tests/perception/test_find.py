@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 
 from fieldnav.messages import RowLine
 from fieldnav.perception.moving_variance import field_structure, find_rows
-from fieldnav.perception.perceive import View, find, lane_of
+from fieldnav.perception.perceive import View, find
 from fieldnav.perception.plants import find_plants
 
 NOBODY = np.empty((0, 2))
@@ -178,11 +178,3 @@ def test_the_field_structure_has_a_trough_on_every_row_and_peaks_between(drawn: 
         assert row.x_bottom_px == pytest.approx(true.x_bottom_px, abs=40)
         assert np.abs(places - true.x_bottom_px).min() < 60
     assert len(structure.peaks) >= 2
-
-
-def test_plants_found_before_give_the_same_lane(drawn: SimpleNamespace) -> None:
-    crop, camera = drawn.beet, drawn.camera
-    image = drawn.picture(crop, camera, drawn.stand(crop, scatter_m=0.01))
-    view = find(image, crop, camera)
-
-    assert lane_of(view.cover, view.centres, crop, camera) == view.lane

@@ -1,10 +1,10 @@
-"""Both finders behind their one interface: the same rows, each in its own way."""
+"""All finders behind their one interface: the same rows, each in its own way."""
 
 from types import SimpleNamespace
 
 import pytest
 
-from fieldnav.perception.perceive import find, lane_of
+from fieldnav.perception.perceive import find
 from fieldnav.settings.crop import CropProfile, Finding, RowFinder
 
 
@@ -45,10 +45,3 @@ def test_a_camera_whose_pose_is_not_trusted_is_searched_for_more_widely(drawn: S
 
     assert len(find(image, crop, high, pose_known=False).lines) >= 4
     assert find(image, crop, high).lane is None
-
-
-def test_plants_are_enough_to_find_the_lane_again(drawn: SimpleNamespace) -> None:
-    image = drawn.picture(drawn.beet, drawn.camera, drawn.stand(drawn.beet, scatter_m=0.01))
-    view = find(image, drawn.beet, drawn.camera)
-
-    assert lane_of(view.cover, view.centres, drawn.beet, drawn.camera) == view.lane

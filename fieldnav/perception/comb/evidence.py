@@ -20,10 +20,15 @@ _TRUST = np.clip((LEVEL + 0.5 - FAR) / (NEAR - FAR), 0, 1).astype(np.float32)[:,
 
 def evidence_of(vegetation: Bands, heat: RowHeat) -> Bands:
     """The map that combs are fitted to, from the vegetation's bands and the network's picture."""
-    centres = heat.centres.astype(np.float32) / FULL
-    wide = np.asarray(cv2.resize(centres, (COLUMNS, BAND_COUNT), interpolation=cv2.INTER_LINEAR), np.float32)
-    seen = np.clip((wide - DIM) / (BRIGHT - DIM), 0, 1)
+    seen = np.clip((network_bands(heat).strength - DIM) / (BRIGHT - DIM), 0, 1)
     about = np.asarray(cv2.blur(seen, AROUND), np.float32)
     about = ALONE + (1 - ALONE) * about / max(float(about.max()), ALMOST_NOTHING)
     green = np.minimum(vegetation.strength / LUSH, 1)
     return Bands(np.asarray((seen + VEGETATION * green * about) * _TRUST, np.float32), evenness=0.0)
+
+
+def network_bands(heat: RowHeat) -> Bands:
+    """The bands of what the network sees."""
+    centres = heat.centres.astype(np.float32) / FULL
+    wide = cv2.resize(centres, (COLUMNS, BAND_COUNT), interpolation=cv2.INTER_LINEAR)
+    return Bands(np.asarray(wide, np.float32))

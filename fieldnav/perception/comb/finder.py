@@ -3,7 +3,7 @@
 import numpy as np
 
 from fieldnav.messages import Floats, RowLine
-from fieldnav.perception.comb.bands import LEVEL, Bands, bands_of
+from fieldnav.perception.comb.bands import LEVEL, Bands
 from fieldnav.perception.comb.confidence import confidence_of
 from fieldnav.perception.comb.periodogram import SearchRange, candidates
 from fieldnav.perception.comb.refinement import Stiffness, refine
@@ -23,11 +23,10 @@ STEEP_SCATTER, OBLIQUE_SCATTER = 0.25, 1.0  # of a row's vegetation, in spacings
 OBLIQUE = 0.8  # convergence from which on a view is one that looks ahead
 
 
-def find_comb(cover: Cover, tried: SearchRange) -> tuple[RowComb, Bands] | None:
-    """The comb that fits the vegetation best among those tried; None where nothing grows."""
-    bands = bands_of(cover.strength)
+def find_comb(bands: Bands, tried: SearchRange) -> RowComb | None:
+    """The comb that fits the bands best among those tried; None where nothing stands out."""
     combs = [refined(comb, bands) for comb in candidates(bands, tried)[: tried.refined]]
-    return (max(combs, key=lambda comb: comb.response(bands)), bands) if combs else None
+    return max(combs, key=lambda comb: comb.response(bands), default=None)
 
 
 def rows_in(comb: RowComb, bands: Bands, cover: Cover) -> Found:

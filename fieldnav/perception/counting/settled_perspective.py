@@ -6,6 +6,7 @@ import numpy as np
 
 from fieldnav.messages import Floats
 from fieldnav.perception.canopy import canopy_plane
+from fieldnav.perception.comb.bands import bands_of
 from fieldnav.perception.comb.finder import find_comb
 from fieldnav.perception.comb.periodogram import SearchRange
 from fieldnav.perception.comb.search_range import any_camera, range_of
@@ -36,10 +37,10 @@ class SettledPerspective:
 
     def look(self, cover: Cover) -> None:
         """Take in the rows of a frame that shows other ground than those before."""
-        combed = find_comb(cover, self._tried) if len(self._found) < MOST_FRAMES else None
-        if combed is None:
+        bands = bands_of(cover.strength)
+        comb = find_comb(bands, self._tried) if len(self._found) < MOST_FRAMES else None
+        if comb is None:
             return
-        comb, bands = combed
         self._found.append((perspective_of(comb), max(comb.response(bands), MIN_RESPONSE) ** TRUST))
         each = np.array([(one.convergence, one.vanishing, one.spacing) for one, _ in self._found])
         convergence, vanishing, spacing = _median(each, np.array([weight for _, weight in self._found]))
