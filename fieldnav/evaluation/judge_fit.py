@@ -9,7 +9,7 @@ from fieldnav.evaluation.found_rows import LEAST_CONFIDENCE
 from fieldnav.evaluation.judged_candidates import JudgedCandidate, JudgedPicture
 from fieldnav.evaluation.reliability import JudgedRows
 from fieldnav.messages import Floats
-from fieldnav.perception.comb.row_judge import Regression, RowJudge
+from fieldnav.perception.comb.row_judge import NO_ROW, Regression, RowJudge
 
 PENALTY = 3.0  # on the squares of the weights
 MAX_ROUNDS = 1000
@@ -20,12 +20,9 @@ LEAST_WORTH = 1e-3  # so that a picture that cannot be judged right does not cou
 def fit_judge(pictures: Sequence[JudgedPicture]) -> RowJudge:
     """Both regressions, the second on the rows of the candidates that the first chooses."""
     candidate = fit_choice(pictures)
-    rows, right = [], []
-    for picture in filter(None, pictures):
-        best, of_rows = _chosen(picture, candidate)
-        rows.append(of_rows)
-        right.append(best.right)
-    of_all, told = np.concatenate(rows), np.concatenate(right)
+    chosen = [each for each in (_chosen(picture, candidate) for picture in pictures) if each is not None]
+    of_all = np.concatenate([of_rows for _, of_rows in chosen])
+    told = np.concatenate([best.right for best, _ in chosen])
     known = np.isfinite(told)
     return RowJudge(candidate=candidate, row=fit_regression(of_all[known], told[known]))
 
@@ -78,15 +75,14 @@ def fit_regression(features: Floats, target: Floats) -> Regression:
 
 def judged_rows(pictures: Sequence[JudgedPicture], judge: RowJudge) -> JudgedRows:
     """The rows of the candidates that a judge chooses: its confidence, and whether they are right."""
-    return JudgedRows.joined(_judged(picture, judge) for picture in filter(None, pictures))
+    chosen = (_chosen(picture, judge.candidate) for picture in pictures)
+    return JudgedRows.joined(_judged(*each, judge.row) for each in chosen if each is not None)
 
 
 def reported(picture: JudgedPicture, judge: RowJudge) -> bool:
     """Whether a judge reports any row of a picture."""
-    if not picture:
-        return False
-    _, of_rows = _chosen(picture, judge.candidate)
-    return bool((judge.row.probability(of_rows) >= LEAST_CONFIDENCE).any())
+    chosen = _chosen(picture, judge.candidate)
+    return chosen is not None and bool((judge.row.probability(chosen[1]) >= LEAST_CONFIDENCE).any())
 
 
 def left_out(sets: Mapping[str, Sequence[JudgedPicture]], name: str) -> RowJudge:
@@ -116,16 +112,19 @@ def _regression(
     )
 
 
-def _judged(picture: JudgedPicture, judge: RowJudge) -> JudgedRows:
-    best, of_rows = _chosen(picture, judge.candidate)
+def _judged(best: JudgedCandidate, of_rows: Floats, row: Regression) -> JudgedRows:
     known = np.isfinite(best.right)
-    return JudgedRows(judge.row.probability(of_rows)[known], np.asarray(best.right[known] == 1))
+    return JudgedRows(row.probability(of_rows)[known], np.asarray(best.right[known] == 1))
 
 
-def _chosen(picture: JudgedPicture, candidate: Regression) -> tuple[JudgedCandidate, Floats]:
-    """The candidate that a regression chooses, and the features of its rows with its log odds in them."""
+def _chosen(picture: JudgedPicture, candidate: Regression) -> tuple[JudgedCandidate, Floats] | None:
+    """The candidate that is chosen, if any, and the features of its rows with its log odds in them."""
+    if not picture:
+        return None
     odds = candidate.log_odds(np.array([each.features for each in picture]))
     best = int(odds.argmax())
+    if odds[best] < NO_ROW:
+        return None
     of_rows = picture[best].row_features.copy()
     of_rows[:, 0] = odds[best]
     return picture[best], of_rows

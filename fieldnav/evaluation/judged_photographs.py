@@ -63,7 +63,8 @@ def _as_crbd(truth: crbd_truth.TrueLattice, measured: CandidateMeasures) -> tupl
     """The set's own score says how well the middle rows fit; it knows nothing of the others."""
     places = positions(measured.candidate.paths_px)
     right = (true_rows(places, truth) != UNMATCHED).astype(float)
-    return float(right.mean()) * crda(places, truth, LOWER_HALF_PX), right
+    exact = (crda(places, truth, LOWER_HALF_PX) + crda(places, truth)) / 2
+    return float(right.mean()) * exact, right
 
 
 def _lincoln(plan: Plan) -> Iterator[Case]:

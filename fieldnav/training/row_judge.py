@@ -1,7 +1,8 @@
 """`python -m fieldnav.training.row_judge`: fit the judge of rows, write it as JSON.
 
-It is fitted to drawn pictures, and to the photographs whose folder is given; `fieldnav bench detection` tells
-how it does on sets that it was not fitted to.
+It is fitted to the photographs whose folder is given, and to drawn pictures if any are asked for: with these
+it reports fewer rows, also where there are some. `fieldnav bench detection` tells how it does on sets that it
+was not fitted to.
 """
 
 import argparse
@@ -13,7 +14,7 @@ from multiprocessing import get_context
 from pathlib import Path
 from typing import TypeVar
 
-from fieldnav.errors import FieldnavError
+from fieldnav.errors import FieldnavError, OutputError, SettingsError
 from fieldnav.evaluation.benchmark import Plan
 from fieldnav.evaluation.judge_fit import fit_judge
 from fieldnav.evaluation.judged_candidates import JudgedPicture
@@ -32,10 +33,11 @@ def main(arguments: Sequence[str] | None = None) -> int:
     parser = argparse.ArgumentParser(prog="python -m fieldnav.training.row_judge", description=__doc__)
     parser.add_argument("--out", type=Path, required=True, help="the JSON file to write")
     parser.add_argument("--data", type=Path, help="folder of the photographs with known rows")
-    parser.add_argument("--pictures", type=int, default=600, help="to draw")
+    parser.add_argument("--pictures", type=int, default=0, help="to draw besides")
     parser.add_argument("--processes", type=int, default=2)
     given = parser.parse_args(arguments)
     try:
+        _check(given)
         cases = cases_of(Plan(given.data, quick=False))
     except FieldnavError as error:
         print(f"error: {error}", file=sys.stderr)
@@ -50,6 +52,19 @@ def main(arguments: Sequence[str] | None = None) -> int:
     text = json.dumps(fit_judge(judged).model_dump(), indent=1)
     given.out.write_text(text + "\n", encoding="utf-8")
     return 0
+
+
+def _check(given: argparse.Namespace) -> None:
+    if given.pictures < 0:
+        raise SettingsError(f"--pictures {given.pictures}: must be 0 or more")
+    if given.processes < 1:
+        raise SettingsError(f"--processes {given.processes}: must be 1 or more")
+    if given.data is not None and not given.data.is_dir():
+        raise SettingsError(f"--data {given.data}: there is no such folder")
+    if given.pictures == 0 and given.data is None:
+        raise SettingsError("--pictures 0: without --data there is nothing to fit the judge to")
+    if not given.out.parent.is_dir() or given.out.is_dir():
+        raise OutputError(f"--out {given.out}: there is no folder for it, or a folder has its name")
 
 
 def _each(

@@ -1,8 +1,9 @@
 """Which of the candidates a picture shows, if any, and how sure each of its rows is.
 
-Two logistic regressions: one over what speaks for a candidate as a whole, one over what speaks for each of
-its rows once it has been chosen. Their weights stand in `row_judge.json`. They were fitted to drawn pictures
-and to the photographs of the benchmark of detection (`fieldnav.training.row_judge`), unlike the network.
+Two logistic regressions: one over what speaks for a candidate as a whole, against all others and against no
+row at all; one over what speaks for each of its rows once it has been chosen. Their weights stand in
+`row_judge.json`. They were fitted to the photographs of the benchmark of detection
+(`fieldnav.training.row_judge`), unlike the network.
 """
 
 from collections.abc import Sequence
@@ -18,7 +19,9 @@ from pydantic import BaseModel, ConfigDict
 
 from fieldnav.messages import Floats
 from fieldnav.perception.comb.candidates import Candidate, Source
+from fieldnav.perception.comb.confidence import LEAST_STAND
 from fieldnav.perception.comb.row_contrast import (
+    ALMOST_NOTHING,
     PlacedRows,
     RowContrast,
     agreement,
@@ -30,8 +33,9 @@ from fieldnav.perception.row_network import FULL, RowHeat
 from fieldnav.perception.vegetation import Cover
 
 BLUR = (3, 1)  # of the network's cells: a row that lies half a cell beside is one still
-LEAST_FIELD, LEAST_HEAT = 1e-4, 0.003
-SURE, SAME = 0.88, 0.85
+LEAST_CHANCE, LEAST_HEAT = 1e-4, 0.003
+NO_ROW = 0.0  # log odds of there being no row at all
+SURE, SAME = 0.98, 0.85
 """Confidence of vegetation alone, and agreement with the candidate chosen, from which on its places count."""
 PAIR, NONE_SEEN = 2, 0.5
 BY_VEGETATION = {Source.VEGETATION, Source.NEAR_VEGETATION}
@@ -91,6 +95,7 @@ class CandidateMeasures:
         both = [_summary(each, seen) for each in (self.vegetation, self.network)]
         (_, green_contrast, _, green_even, _), (warm, warm_contrast, _, warm_even, _) = both
         lone = float(count <= 1)
+        sure = _log_odds(self.candidate.sure) if self.candidate.source in BY_VEGETATION else 0.0
         return np.array(
             [
                 *both[0],
@@ -102,7 +107,7 @@ class CandidateMeasures:
                 lone * warm_contrast,
                 self.agreement * warm,
                 self.agreement,
-                log((self.field + LEAST_FIELD) / (1 - self.field + LEAST_FIELD)),
+                _log_odds(self.field),
                 self.explained,
                 log(self.heat + LEAST_HEAT),
                 self.candidate.convergence,
@@ -112,13 +117,23 @@ class CandidateMeasures:
                 float(count == PAIR),
                 log(max(count, NONE_SEEN)),
                 self.candidate.rows_across,
-                self.candidate.sure,
-                self.candidate.sure * self.agreement,
-                self.candidate.sure * self.field,
-                self.surest,
+                sure,
+                sure * self.agreement,
+                sure * self.field,
+                _log_odds(self.surest),
                 *(float(self.candidate.source is source) for source in Source),
             ]
         )
+
+    @property
+    def stand(self) -> Floats:
+        """How much each row shows beyond what lies beside it, against the middle one, shape (rows,).
+
+        By the witness that shows more of it.
+        """
+        by_each = [np.maximum(each.on - each.between, 0) for each in (self.vegetation, self.network)]
+        usual = [max(float(np.median(each)), ALMOST_NOTHING) for each in by_each]
+        return np.maximum(by_each[0] / usual[0], by_each[1] / usual[1])
 
     def row_features(self, log_odds: float) -> Floats:
         """What speaks for each of its rows, shape (rows, features); log_odds: those of the candidate."""
@@ -160,13 +175,16 @@ def measure(candidates: Sequence[Candidate], cover: Cover, heat: RowHeat) -> lis
 
 
 def choose_rows(measured: Sequence[CandidateMeasures], judge: RowJudge) -> ChosenRows | None:
-    """The candidate with the highest odds; None where there is none."""
+    """The candidate with the highest odds; None where none of them is as likely as no row at all."""
     if not measured:
         return None
     odds = judge.candidate.log_odds(np.stack([each.features() for each in measured]))
     best = int(odds.argmax())
+    if odds[best] < NO_ROW:
+        return None
     exact = _more_exact(measured, measured[best])
-    return ChosenRows(exact.candidate, judge.row.probability(exact.row_features(float(odds[best]))))
+    likely = judge.row.probability(exact.row_features(float(odds[best])))
+    return ChosenRows(exact.candidate, np.asarray(likely * np.minimum(exact.stand / LEAST_STAND, 1)))
 
 
 def _more_exact(measured: Sequence[CandidateMeasures], chosen: CandidateMeasures) -> CandidateMeasures:
@@ -185,6 +203,10 @@ def _more_exact(measured: Sequence[CandidateMeasures], chosen: CandidateMeasures
 def row_judge() -> RowJudge:
     """The judge as it was fitted."""
     return RowJudge.model_validate_json(files(__package__).joinpath("row_judge.json").read_bytes())
+
+
+def _log_odds(probability: float) -> float:
+    return log((probability + LEAST_CHANCE) / (1 - probability + LEAST_CHANCE))
 
 
 def _summary(rows: RowContrast, seen: NDArray[np.bool_]) -> tuple[float, float, float, float, float]:
