@@ -1,5 +1,6 @@
 """Reading a YAML file strictly: plain data only, one mapping at the root, no key twice; and writing one."""
 
+import re
 from collections.abc import Hashable, Mapping
 from typing import Any
 
@@ -8,7 +9,7 @@ import yaml
 from fieldnav.errors import SettingsError
 from fieldnav.settings.one_line import one_line
 from fieldnav.settings.regular_file import read_regular
-from fieldnav.settings.scalars import QUOTED
+from fieldnav.settings.scalars import QUOTED, STRING
 from fieldnav.settings.strict_loader import RefusedError, StrictLoader
 
 LARGEST_FILE_BYTES = 100_000
@@ -17,12 +18,21 @@ LARGEST_FILE_BYTES = 100_000
 
 LINE_WIDTH = 110
 """Characters at which long text of a written file is folded."""
+_OTHER_LINE_BREAKS = re.compile("[\x85\u2028\u2029]")
+"""NEL, LS and PS: line breaks to some YAML readers and not to others, so they are written escaped."""
 
 
 class _Dumper(yaml.SafeDumper):
     """Puts text in quotes that the strict loader would refuse or read as something else."""
 
     yaml_implicit_resolvers = QUOTED
+
+    def represent_str(self, text: str) -> yaml.ScalarNode:
+        """Text; in double quotes, the only ones with escapes, where a line break would not be read back."""
+        return self.represent_scalar(STRING, text, style='"' if _OTHER_LINE_BREAKS.search(text) else None)
+
+
+_Dumper.add_representer(str, _Dumper.represent_str)
 
 
 def written(document: Mapping[str, object]) -> str:

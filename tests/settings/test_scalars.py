@@ -3,7 +3,7 @@
 import math
 
 import pytest
-from hypothesis import given
+from hypothesis import example, given
 from hypothesis import strategies as st
 
 from fieldnav.errors import SettingsError
@@ -91,6 +91,9 @@ def test_text_where_a_number_belongs_is_refused_with_the_number(value: str, inst
     assert str(caught.value).endswith(f"; write {instead}" if instead else "from 1 to 100000")
 
 
+@example("\x85")
+@example("a\x85b\n")
+@example("a\u2028b\u2029")
 @given(st.text(max_size=12) | st.from_regex(r"[-+]?[0-9a-fxob_:.eE+-]{1,8}", fullmatch=True))
 def test_text_is_written_so_that_it_is_read_as_the_same(text: str) -> None:
     content = written({"a": text})
