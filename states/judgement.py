@@ -30,6 +30,6 @@ def holds(judged: Evidence) -> bool:
 
 def second_opinion(found: View) -> tuple[Evidence, ...]:
     """What the network says of the rows that a fresh look shows; nothing where there are none."""
-    if found.contrast is None:
+    if found.borne_out is None:
         return ()
-    return (Evidence("rows stand out for the network by", found.contrast, BORNE_OUT),)
+    return (Evidence("share of a row that the network bears out", found.borne_out, BORNE_OUT),)

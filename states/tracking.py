@@ -2,7 +2,7 @@
 
 from fieldnav.messages import Bound, CameraName, Direction, Evidence, Frame
 from fieldnav.perception.plants import find_plants
-from fieldnav.perception.second_witness import BORNE_OUT, contrast_in_network
+from fieldnav.perception.second_witness import BORNE_OUT, share_borne_out
 from states.behaviour import Observation, Sight, Step, Task
 from states.guide import Look
 from states.judgement import first_of
@@ -76,6 +76,6 @@ class Tracking:
             self._borne_out_m = driven
         elif self._asked_m is None or driven - self._asked_m >= DOUBT_EVERY_M:
             self._asked_m = driven
-            if contrast_in_network(frame.image, look.rows, crop, camera) >= BORNE_OUT:
+            if share_borne_out(frame.image, look.rows, crop, camera) >= BORNE_OUT:
                 self._borne_out_m = driven
         return driven - self._borne_out_m

@@ -4,6 +4,7 @@ from pathlib import Path
 
 from fieldnav.faults import FAULTS, FaultKind, Reaction, Trouble
 from fieldnav.mission.loop import EVENTS
+from states.judgement import NO_FIELD
 
 PAGE = Path(__file__).parent.parent / "docs" / "faults.md"
 
@@ -28,3 +29,7 @@ def test_the_documentation_prints_the_table_that_the_code_runs_from() -> None:
     for kind, declared in FAULTS.items():
         row = f"| {kind.value} | {declared.reaction.value} | {declared.noticed} | {declared.advice} |"
         assert row in page, row
+
+
+def test_the_documentation_gives_the_reason_of_a_stop_without_a_field() -> None:
+    assert NO_FIELD in " ".join(PAGE.read_text(encoding="utf-8").split())

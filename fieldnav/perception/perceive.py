@@ -10,7 +10,7 @@ from fieldnav.perception.found import NO_ROWS, Found
 from fieldnav.perception.ground_plants import on_ground
 from fieldnav.perception.lane import LaneFit, lane_rows
 from fieldnav.perception.plants import plants_in
-from fieldnav.perception.second_witness import BORNE_OUT, contrast_in_network
+from fieldnav.perception.second_witness import BORNE_OUT, share_borne_out
 from fieldnav.perception.settle import settle
 from fieldnav.perception.vegetation import Cover, vegetation_of
 from fieldnav.perception.witnessed import find_witnessed
@@ -25,8 +25,8 @@ class View:
     cover and centres: its vegetation and the plants; lines: every row it shows, left to right; paths_px: the
     same rows as curves, shape (rows, points, 2), x and y from the upper edge of the ground to the lower edge;
     lane: the rows under the robot, None when there are none; field: the probability that the picture shows a
-    field of rows at all, None for a camera whose pose is known; contrast: how far the rows that vegetation
-    shows there stand out of what the network sees, -1 to 1, None where it was not asked.
+    field of rows at all, None for a camera whose pose is known; borne_out: the share of the best row that
+    the network bears out, 0 to 1, None where it was not asked.
     """
 
     cover: Cover
@@ -35,12 +35,12 @@ class View:
     paths_px: Floats
     lane: LaneFit | None
     field: float | None = None
-    contrast: float | None = None
+    borne_out: float | None = None
 
     @property
     def no_field(self) -> bool:
         """Whether vegetation shows rows that the network does not see: a verge, a hedge, something green."""
-        return self.contrast is not None and self.contrast < BORNE_OUT
+        return self.borne_out is not None and self.borne_out < BORNE_OUT
 
 
 def find(
@@ -67,13 +67,13 @@ def find(
         ground, top_px = cover.below(plane.top_px)
         witnessed = find_witnessed(image[int(top_px) :], ground, crop.vegetation, tried)
         found, field = in_whole(witnessed.found, ground.height_px, top_px), witnessed.field
-    sure, contrast = found.sure(), None
+    sure, borne_out = found.sure(), None
     lane = _lane(found, centres, crop, camera, widest_offset_m) if pose_known or sure.lines else None
     if pose_known and crop.finding.second_witness and (lane or sure.lines):
-        contrast = contrast_in_network(image, lane.rows if lane else sure.lines, crop, camera)
-        if contrast < BORNE_OUT:
+        borne_out = share_borne_out(image, lane.rows if lane else sure.lines, crop, camera)
+        if borne_out < BORNE_OUT:
             sure, lane = NO_ROWS, None
-    return View(cover, centres, sure.lines, sure.paths_px, lane, field, contrast)
+    return View(cover, centres, sure.lines, sure.paths_px, lane, field, borne_out)
 
 
 def _lane(

@@ -19,6 +19,8 @@ SIZE_PX = (192, 128)
 LEAST_CONTRAST = 0.05
 """Added to the standard deviation that a picture is divided by; brightness goes from 0 to 1."""
 FULL = 255
+SPREAD = (3, 1)
+"""Cells across and down."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -32,6 +34,11 @@ class RowHeat:
 
     centres: NDArray[np.uint8]
     field: float
+
+    @property
+    def spread(self) -> NDArray[np.float32]:
+        """The same from 0 to 1, spread over neighbouring cells: a row half a cell beside is one still."""
+        return np.asarray(cv2.blur(self.centres.astype(np.float32) / FULL, SPREAD), np.float32)
 
 
 def look(image: Image) -> RowHeat:

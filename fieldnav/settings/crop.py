@@ -72,7 +72,8 @@ class Finding(Settings):
     neighbours: int = Field(default=10, ge=2, le=100, description="k of the moving variance (paper: 10)")
     prominence_deg2: float = Field(default=6.0, gt=0, le=500, description="of the peaks and troughs")
     second_witness: bool = Field(
-        default=True, description="whether the network must bear out rows that are found afresh"
+        default=True,
+        description="whether the network must bear out the rows; false: what the method finds is believed",
     )
 
 

@@ -11,7 +11,7 @@ from states.judgement import NO_FIELD
 from states.names import Event
 
 UNSEEN = 0.1
-"""Contrast of rows for a network that sees none."""
+"""Share that is borne out by a network that hardly sees any rows."""
 
 
 def follower(drawn: SimpleNamespace, second_witness: bool = True) -> SimpleNamespace:
@@ -26,7 +26,7 @@ def blind(monkeypatch: pytest.MonkeyPatch) -> SimpleNamespace:
 
     def start() -> None:
         for module in (perceive, tracking):
-            monkeypatch.setattr(module, "contrast_in_network", lambda *_: UNSEEN)
+            monkeypatch.setattr(module, "share_borne_out", lambda *_: UNSEEN)
 
     return SimpleNamespace(start=start)
 

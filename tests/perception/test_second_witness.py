@@ -8,7 +8,7 @@ import pytest
 from fieldnav.evaluation.rowless import as_large
 from fieldnav.messages import Image
 from fieldnav.perception.perceive import find
-from fieldnav.perception.second_witness import BORNE_OUT, contrast_in_network
+from fieldnav.perception.second_witness import BORNE_OUT, share_borne_out
 from fieldnav.settings.crop import CropProfile
 from fieldnav.training.light import expose
 from fieldnav.training.rowless import draw_leaves, draw_scene, draw_uprights
@@ -42,7 +42,7 @@ def test_rows_of_a_field_are_borne_out(drawn: SimpleNamespace, beet: CropProfile
     view = find(image, beet, drawn.camera)
 
     assert view.lane is not None and not view.no_field
-    assert view.contrast == contrast_in_network(image, view.lane.rows, beet, drawn.camera) > BORNE_OUT
+    assert view.borne_out == share_borne_out(image, view.lane.rows, beet, drawn.camera) > BORNE_OUT
 
 
 def test_what_vegetation_takes_for_rows_in_scenes_is_no_field(
@@ -59,12 +59,12 @@ def test_what_vegetation_takes_for_rows_in_scenes_is_no_field(
     assert all(
         view.no_field for view, wrong, still in zip(by_both, taken, left, strict=True) if wrong and not still
     )
-    assert all(view.contrast is None and not view.no_field for view in by_vegetation)
+    assert all(view.borne_out is None and not view.no_field for view in by_vegetation)
 
 
 def test_no_rows_and_no_picture_stand_out_of_nothing(drawn: SimpleNamespace, beet: CropProfile) -> None:
     grey = np.full((360, 640), 128, np.uint8)
     view = find(drawn.picture(beet, drawn.camera, drawn.stand(beet)), beet, drawn.camera)
 
-    assert contrast_in_network(grey, view.lines, beet, drawn.pinhole(640)) == -1
-    assert contrast_in_network(np.zeros((360, 640, 3), np.uint8), (), beet, drawn.pinhole(640)) == -1
+    assert share_borne_out(grey, view.lines, beet, drawn.pinhole(640)) == 0
+    assert share_borne_out(np.zeros((360, 640, 3), np.uint8), (), beet, drawn.pinhole(640)) == 0

@@ -12,7 +12,6 @@ from functools import lru_cache
 from importlib.resources import files
 from math import log
 
-import cv2
 import numpy as np
 from numpy.typing import NDArray
 from pydantic import BaseModel, ConfigDict
@@ -32,7 +31,6 @@ from fieldnav.perception.comb.row_contrast import (
 from fieldnav.perception.row_network import FULL, RowHeat
 from fieldnav.perception.vegetation import Cover
 
-BLUR = (3, 1)  # of the network's cells: a row that lies half a cell beside is one still
 LEAST_CHANCE, LEAST_HEAT = 1e-4, 0.003
 NO_ROW = 0.0  # log odds of there being no row at all
 SURE, SAME = 0.98, 0.85
@@ -155,7 +153,7 @@ class ChosenRows:
 def measure(candidates: Sequence[Candidate], cover: Cover, heat: RowHeat) -> list[CandidateMeasures]:
     """What both witnesses say of each candidate."""
     green = np.asarray(cover.strength / np.float32(FULL), np.float32)
-    warm = np.asarray(cv2.blur(heat.centres.astype(np.float32) / FULL, BLUR), np.float32)
+    warm = heat.spread
     rows = [placed(each, cover.width_px, cover.height_px) for each in candidates]
     surest = max((each.sure for each in candidates), default=0.0)
     return [
