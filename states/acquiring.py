@@ -5,10 +5,11 @@ from dataclasses import replace
 from fieldnav.estimation.lane_end import LaneEnd
 from fieldnav.messages import Bound, CameraName, Direction, Evidence, Motion, Twist
 from fieldnav.perception.perceive import find
+from fieldnav.perception.second_witness import NO_FIELD
 from states.agreement import Agreement
 from states.behaviour import Observation, Sight, Step, Task
 from states.guides import guide_for, steering_of
-from states.judgement import NO_FIELD, first_of, second_opinion
+from states.judgement import first_of, second_opinion
 from states.lane_watch import driven_m
 from states.memory import LaneMemory
 from states.names import Event

@@ -7,10 +7,11 @@ from fieldnav.perception.canopy import canopy_plane
 from fieldnav.perception.follow import comb_of
 from fieldnav.perception.lane import LaneFit
 from fieldnav.perception.perceive import View, find
+from fieldnav.perception.second_witness import NO_FIELD
 from states.agreement import Agreement
 from states.behaviour import Observation, Sight, Step, Task
 from states.guide import Look
-from states.judgement import NO_FIELD, first_of, holds, second_opinion
+from states.judgement import first_of, holds, second_opinion
 from states.lane_watch import LANE_ENDED, driven_m, end_evidence, watch_end
 from states.memory import LaneMemory
 from states.names import Event

@@ -7,8 +7,6 @@ from fieldnav.perception.perceive import View
 from fieldnav.perception.second_witness import BORNE_OUT
 from states.names import Event
 
-NO_FIELD = "no field in view: vegetation shows rows, and the network sees none there"
-
 
 def first_of(evidence: Iterable[Evidence], *events: Event) -> Event | None:
     """The first of some events that comes about; None where none does."""

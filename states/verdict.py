@@ -12,7 +12,7 @@ from fieldnav.perception.sidestep.passing_rows import Crossing, look_at_m
 from fieldnav.perception.sidestep.row_words import LEAST_SHOWN
 from fieldnav.pinhole import Pinhole
 from fieldnav.settings.crop import CropProfile
-from states.judgement import holds
+from states.judgement import holds, second_opinion
 
 OFF_PLACE = 0.3
 """Of the row spacing: a fresh look finds the lane this near to where the passing rows have it."""
@@ -36,7 +36,8 @@ def verdict(
     image: Image, rows: Crossing, there: NextLane | None, crop: CropProfile, camera: Pinhole
 ) -> Verdict:
     """Hold a frame, looked at as if nothing were known, against the lane that the passing rows made."""
-    fit = find(image, crop, camera).lane
+    found = find(image, crop, camera)
+    fit = found.lane
     wanted = there.rows_seen if there else crop.rows.per_lane
     off_m = abs(_off_m(fit, rows, there, look_at_m(canopy_plane(camera, crop))))
     most_m, uneven = OFF_PLACE * crop.rows.spacing_m, _uneven(fit, crop)
@@ -56,7 +57,7 @@ def verdict(
         Evidence("its row spacing is off by the share", uneven, OFF_SPACING, bound=Bound.AT_MOST),
         Evidence("rows where the wheels will go", beside, 0, "rows", bound=Bound.AT_MOST),
     )
-    return Verdict(fits, "" if fits else _objection(evidence), evidence)
+    return Verdict(fits, "" if fits else _objection(evidence), (*evidence, *second_opinion(found)))
 
 
 def _objection(evidence: tuple[Evidence, ...]) -> str:

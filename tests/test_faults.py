@@ -4,7 +4,7 @@ from pathlib import Path
 
 from fieldnav.faults import FAULTS, FaultKind, Reaction, Trouble
 from fieldnav.mission.loop import EVENTS
-from states.judgement import NO_FIELD
+from fieldnav.perception.second_witness import NO_FIELD
 
 PAGE = Path(__file__).parent.parent / "docs" / "faults.md"
 

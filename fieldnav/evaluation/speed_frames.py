@@ -26,12 +26,14 @@ from fieldnav.perception.canopy import canopy_plane
 from fieldnav.perception.lane import LaneFit, comb_m
 from fieldnav.perception.perceive import find
 from fieldnav.perception.plants import find_plants
+from fieldnav.perception.row_network import look
 from fieldnav.settings.loading import load_crop, load_robot
 from states.behaviour import Task
 from states.guides import guide_for
 
 PHOTOGRAPH_ROUNDS, QUICK_PHOTOGRAPH_ROUNDS = 15, 3  # of each photograph
 FRESH_GOAL, TRACKING_GOAL = 1.5, 1.0  # over the bare primitives
+LOOK_GOAL_MS = 20.0  # of the network, beside a fresh frame
 REFERENCE_FRESH_MS, REFERENCE_TRACKING_MS = 57.0, 17.0
 REFERENCE = "reference implementation, the least of its range on a machine like this"
 STREWN = (50, 120, 200, 300, 400, 500)  # plants in view
@@ -64,9 +66,11 @@ def tracking_in(sample: Sample) -> Work:
 
 
 def frame_ms(sample: Sample, rounds: int) -> Floats:
-    """Milliseconds of the bare primitives, of a fresh frame and of tracking, shape (3,)."""
+    """Milliseconds of bare primitives, of a fresh frame by vegetation alone, of tracking, shape (3,)."""
     image, crop, camera = sample.image, sample.crop, sample.camera
-    works = (lambda: bare_primitives(image), lambda: find(image, crop, camera), tracking_in(sample))
+    finding = crop.finding.model_copy(update={"second_witness": False})
+    alone = crop.model_copy(update={"finding": finding})
+    works = (lambda: bare_primitives(image), lambda: find(image, alone, camera), tracking_in(sample))
     return medians_ms(works, rounds)
 
 
@@ -79,6 +83,10 @@ def frame_figures(plan: Plan, rounds: int) -> list[Figure]:
     plants = len(find_plants(crowded.image, crowded.crop.vegetation, crowded.camera))
     figures = [Figure("250 plants", "plants in view", plants)]
     figures += _cost_figures("250 plants", [crowded], rounds) + _cost_figures(FIELD, [usual], rounds)
+    (look_ms,) = medians_ms((lambda: look(usual.image),), rounds)
+    figures.append(
+        Figure(FIELD, "second witness (ms)", float(look_ms), None, LOOK_GOAL_MS, better=Better.LOWER)
+    )
     folder = PhotographSet.NEAR_NADIR.folder(plan)
     if folder is not None:
         camera = load_robot(ROBOT).cameras.front.pinhole()

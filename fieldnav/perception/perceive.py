@@ -54,12 +54,13 @@ def find(
 
     pose_known: whether the pose is that of the file but for calibration and shaking. If so, vegetation shows
     rows, and the network has to bear one of them out (`second_witness`). If not, they are what both show
-    together (`witnessed`).
+    together (`witnessed`), unless the profile does without the network.
     """
     cover = vegetation_of(image, crop.vegetation, camera.top_px)
     centres = plants_in(cover, crop.vegetation, camera)
     field = None
-    if pose_known or crop.finding.method is not RowFinder.COMB:
+    both = crop.finding.second_witness and crop.finding.method is RowFinder.COMB
+    if pose_known or not both:
         found = find_rows(Shown(image, cover, centres), crop, camera, pose_known)
     else:
         plane = canopy_plane(camera, crop)
@@ -68,7 +69,9 @@ def find(
         witnessed = find_witnessed(image[int(top_px) :], ground, crop.vegetation, tried)
         found, field = in_whole(witnessed.found, ground.height_px, top_px), witnessed.field
     sure, borne_out = found.sure(), None
-    lane = _lane(found, centres, crop, camera, widest_offset_m) if pose_known or sure.lines else None
+    lane = (
+        _lane(found, centres, crop, camera, widest_offset_m) if pose_known or not both or sure.lines else None
+    )
     if pose_known and crop.finding.second_witness and (lane or sure.lines):
         borne_out = share_borne_out(image, lane.rows if lane else sure.lines, crop, camera)
         if borne_out < BORNE_OUT:

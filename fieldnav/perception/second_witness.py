@@ -10,6 +10,7 @@ from fieldnav.perception.vegetation import as_colour
 from fieldnav.pinhole import Pinhole
 from fieldnav.settings.crop import CropProfile
 
+NO_FIELD = "no field in view: vegetation shows rows, and the network sees none there"
 BORNE_OUT = 0.5
 """Share of one row at least. Of what vegetation takes for rows in ordinary photographs the network bears out
 a third at most (in one of a hundred all), of rows in photographs of fields half at least."""

@@ -5,6 +5,7 @@ from collections.abc import Iterator
 from fieldnav.messages import Frame
 from fieldnav.perception.lane import LaneFit
 from fieldnav.perception.perceive import find
+from fieldnav.perception.second_witness import NO_FIELD
 from fieldnav.pinhole import Pinhole
 from fieldnav.preflight.finding import Concern, Finding, Verdict, finding_of
 from fieldnav.preflight.row_measures import canopy_width_m, spacing_m
@@ -17,6 +18,7 @@ narrow was never seen with the right profile."""
 OTHER_CANOPY = 0.4
 """Of the canopy width, our choice: another growth stage. In rendered fields a frame errs by up to 0.25."""
 RIGHT_CROP = "name the crop that grows here, or set its profile right"
+UNKNOWN_CROP = "if it does, the network does not know this crop: docs/faults.md, no field in view"
 OVER_ROWS = "stand the robot over rows of this crop"
 ON_THE_LANE = "stand it on the middle of a lane"
 
@@ -24,10 +26,15 @@ ON_THE_LANE = "stand it on the middle of a lane"
 def row_findings(frame: Frame, crop: CropProfile, camera: Pinhole) -> Iterator[Finding]:
     """What the rows in a frame tell of the crop profile."""
     # Rows of quite another spacing are found too where the camera's height is taken for unknown.
-    free = find(frame.image, crop, camera, pose_known=False)
+    finding = crop.finding.model_copy(update={"second_witness": False})
+    by_vegetation = crop.model_copy(update={"finding": finding})
+    free = find(frame.image, by_vegetation, camera, pose_known=False)
     view = find(frame.image, crop, camera)
     apart_m = spacing_m(free, crop, camera)
     called = f"{frame.camera.value} camera"
+    if view.no_field:
+        yield Finding(f"{called} rows", Verdict.WARNING, NO_FIELD, f"{OVER_ROWS}; {UNKNOWN_CROP}")
+        return
     if apart_m is None:
         figure = f"{len(free.lines)} seen; the profile has {crop.rows.per_lane} to a lane"
         verdict = Verdict.OK if len(free.lines) == crop.rows.per_lane else Verdict.WARNING

@@ -5,9 +5,9 @@ from types import SimpleNamespace
 import pytest
 
 from fieldnav.perception import perceive
+from fieldnav.perception.second_witness import NO_FIELD
 from fieldnav.settings.crop import ControlLaw
 from states import tracking
-from states.judgement import NO_FIELD
 from states.names import Event
 
 UNSEEN = 0.1

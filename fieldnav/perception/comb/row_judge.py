@@ -35,6 +35,8 @@ LEAST_CHANCE, LEAST_HEAT = 1e-4, 0.003
 NO_ROW = 0.0  # log odds of there being no row at all
 SURE, SAME = 0.98, 0.85
 """Confidence of vegetation alone, and agreement with the candidate chosen, from which on its places count."""
+NEAR_SURE, NEAR_SAME = 0.88, 0.8
+"""The same where the near part alone was looked at, and its rows carried on straight."""
 PAIR, NONE_SEEN = 2, 0.5
 BY_VEGETATION = {Source.VEGETATION, Source.NEAR_VEGETATION}
 
@@ -187,12 +189,14 @@ def choose_rows(measured: Sequence[CandidateMeasures], judge: RowJudge) -> Chose
 
 def _more_exact(measured: Sequence[CandidateMeasures], chosen: CandidateMeasures) -> CandidateMeasures:
     """The same rows as vegetation alone shows them, where it is sure of them: its places are more exact."""
+    near = chosen.candidate.source is Source.NEAR_VEGETATION
+    least_sure, alike = (NEAR_SURE, NEAR_SAME) if near else (SURE, SAME)
     same = [
         each
         for each in measured
         if each.candidate.source is Source.VEGETATION
-        and each.candidate.sure >= SURE
-        and agreement(chosen.rows, each.rows) >= SAME
+        and each.candidate.sure >= least_sure
+        and agreement(chosen.rows, each.rows) >= alike
     ]
     return max(same, key=lambda each: each.candidate.sure, default=chosen)
 

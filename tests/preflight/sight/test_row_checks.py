@@ -2,6 +2,8 @@
 
 import pytest
 
+from fieldnav.perception import perceive
+from fieldnav.perception.second_witness import NO_FIELD
 from fieldnav.preflight.finding import Verdict
 from fieldnav.settings.loading import load_crop
 
@@ -68,3 +70,13 @@ def test_plants_of_another_growth_stage_are_warned_of_with_both_widths(bench, ra
     assert least_m <= float(canopy.figure.split()[0]) <= most_m
     assert "0.2 m in the profile" in canopy.figure
     assert "plants grow" in canopy.advice
+
+
+def test_rows_that_the_network_does_not_bear_out_are_warned_of_with_the_switch(bench, monkeypatch):
+    monkeypatch.setattr(perceive, "share_borne_out", lambda *_: 0.1)
+    bench.show("front", bench.lane)
+
+    rows = bench.check(bench.crop)["front camera rows"]
+
+    assert (rows.verdict, rows.figure) == (Verdict.WARNING, NO_FIELD)
+    assert "the network does not know this crop" in rows.advice
