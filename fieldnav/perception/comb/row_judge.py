@@ -19,6 +19,7 @@ from pydantic import BaseModel, ConfigDict
 from fieldnav.messages import Floats
 from fieldnav.perception.comb.candidates import Candidate, Source
 from fieldnav.perception.comb.confidence import LEAST_STAND
+from fieldnav.perception.comb.finder import OBLIQUE
 from fieldnav.perception.comb.row_contrast import (
     ALMOST_NOTHING,
     PlacedRows,
@@ -36,7 +37,7 @@ NO_ROW = 0.0  # log odds of there being no row at all
 SURE, SAME = 0.98, 0.85
 """Confidence of vegetation alone, and agreement with the candidate chosen, from which on its places count."""
 NEAR_SURE, NEAR_SAME = 0.88, 0.8
-"""The same where the near part alone was looked at, and its rows carried on straight."""
+"""The same in a view that looks ahead, of rows seen in its near part and carried on straight: they may bend."""
 PAIR, NONE_SEEN = 2, 0.5
 BY_VEGETATION = {Source.VEGETATION, Source.NEAR_VEGETATION}
 
@@ -189,7 +190,7 @@ def choose_rows(measured: Sequence[CandidateMeasures], judge: RowJudge) -> Chose
 
 def _more_exact(measured: Sequence[CandidateMeasures], chosen: CandidateMeasures) -> CandidateMeasures:
     """The same rows as vegetation alone shows them, where it is sure of them: its places are more exact."""
-    near = chosen.candidate.source is Source.NEAR_VEGETATION
+    near = chosen.candidate.source is Source.NEAR_VEGETATION and chosen.candidate.convergence >= OBLIQUE
     least_sure, alike = (NEAR_SURE, NEAR_SAME) if near else (SURE, SAME)
     same = [
         each
