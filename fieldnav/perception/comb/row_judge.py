@@ -37,7 +37,7 @@ NO_ROW = 0.0  # log odds of there being no row at all
 SURE, SAME = 0.98, 0.85
 """Confidence of vegetation alone, and agreement with the candidate chosen, from which on its places count."""
 NEAR_SURE, NEAR_SAME = 0.88, 0.8
-"""The same in a view that looks ahead, of rows seen in its near part and carried on straight: they may bend."""
+"""The same in a view that looks ahead, of rows seen nearby and carried on straight: they may bend."""
 PAIR, NONE_SEEN = 2, 0.5
 BY_VEGETATION = {Source.VEGETATION, Source.NEAR_VEGETATION}
 
