@@ -27,6 +27,7 @@ from fieldnav.perception.lane import LaneFit, comb_m
 from fieldnav.perception.perceive import find
 from fieldnav.perception.plants import find_plants
 from fieldnav.perception.row_network import look
+from fieldnav.perception.second_witness import by_vegetation_alone
 from fieldnav.settings.loading import load_crop, load_robot
 from states.behaviour import Task
 from states.guides import guide_for
@@ -68,8 +69,7 @@ def tracking_in(sample: Sample) -> Work:
 def frame_ms(sample: Sample, rounds: int) -> Floats:
     """Milliseconds of bare primitives, of a fresh frame by vegetation alone, of tracking, shape (3,)."""
     image, crop, camera = sample.image, sample.crop, sample.camera
-    finding = crop.finding.model_copy(update={"second_witness": False})
-    alone = crop.model_copy(update={"finding": finding})
+    alone = by_vegetation_alone(crop)
     works = (lambda: bare_primitives(image), lambda: find(image, alone, camera), tracking_in(sample))
     return medians_ms(works, rounds)
 

@@ -28,10 +28,8 @@ def canopy_plane(camera: Pinhole, crop: CropProfile) -> Pinhole:
 
 def _rows_from_px(plane: Pinhole, crop: CropProfile) -> float:
     """The image row from which on down rows can be told apart; half of the ground is left in any case."""
-    px_per_px = (
-        crop.rows.spacing_m * cos(plane.tilt_rad) / plane.height_m
-    )  # of a row spacing, below the horizon
-    return min(max(plane.top_px, plane.horizon_px + MIN_SPACING_PX / px_per_px), plane.ground_middle_px)
+    spacing_per_px = crop.rows.spacing_m * cos(plane.tilt_rad) / plane.height_m  # below the horizon
+    return min(max(plane.top_px, plane.horizon_px + MIN_SPACING_PX / spacing_per_px), plane.ground_middle_px)
 
 
 def half_width_px(y_px: Floats, crop: CropProfile, camera: Pinhole) -> Floats:

@@ -61,9 +61,8 @@ def _by_comb(shown: Shown, crop: CropProfile, camera: Pinhole, pose_known: bool)
     """The comb that fits the vegetation best."""
     plane = canopy_plane(camera, crop)
     ground, top_px = shown.cover.below(plane.top_px)
-    bands = bands_of(ground.strength)
-    comb = find_comb(bands, range_of(plane, crop.rows.spacing_m, pose_known))
-    return in_whole(rows_in(comb, bands, ground), ground.height_px, top_px) if comb else NO_ROWS
+    found = _fitted(bands_of(ground.strength), ground, crop, plane, pose_known)
+    return in_whole(found, ground.height_px, top_px)
 
 
 def _by_network(shown: Shown, crop: CropProfile, camera: Pinhole, pose_known: bool) -> Found:
@@ -73,16 +72,21 @@ def _by_network(shown: Shown, crop: CropProfile, camera: Pinhole, pose_known: bo
         return NO_ROWS
     ground, top_px = shown.cover.below(plane.top_px)
     bands = network_bands(look(colour[int(top_px) :]))
-    comb = find_comb(bands, range_of(plane, crop.rows.spacing_m, pose_known))
-    if comb is None:
+    found = _fitted(bands, ground, crop, plane, pose_known)
+    if not found.lines:
         return NO_ROWS
-    found = rows_in(comb, bands, ground)
     sure = np.minimum(_mean_heat(found, bands, ground.width_px) / PLAINLY, 1)
     lines = [
         replace(line, confidence=line.confidence * float(share))
         for line, share in zip(found.lines, sure, strict=True)
     ]
     return in_whole(replace(found, lines=tuple(lines)), ground.height_px, top_px)
+
+
+def _fitted(bands: Bands, ground: Cover, crop: CropProfile, plane: Pinhole, pose_known: bool) -> Found:
+    """The rows of the comb that fits the bands best."""
+    comb = find_comb(bands, range_of(plane, crop.rows.spacing_m, pose_known))
+    return rows_in(comb, bands, ground) if comb else NO_ROWS
 
 
 def _mean_heat(found: Found, bands: Bands, width_px: int) -> Floats:

@@ -33,3 +33,9 @@ def share_borne_out(image: Image, lines: tuple[RowLine, ...], crop: CropProfile,
     spacing = (crop.rows.spacing_m * np.asarray(per_metre) / width).clip(NARROWEST, WIDEST)
     rows = PlacedRows(place, spacing)
     return float(contrast_of(rows, look(ground).spread).evenness[rows.seen].max(initial=0.0))
+
+
+def by_vegetation_alone(crop: CropProfile) -> CropProfile:
+    """The same profile without the second witness."""
+    finding = crop.finding.model_copy(update={"second_witness": False})
+    return crop.model_copy(update={"finding": finding})

@@ -5,7 +5,7 @@ from collections.abc import Iterator
 from fieldnav.messages import Frame
 from fieldnav.perception.lane import LaneFit
 from fieldnav.perception.perceive import find
-from fieldnav.perception.second_witness import NO_FIELD
+from fieldnav.perception.second_witness import NO_FIELD, by_vegetation_alone
 from fieldnav.pinhole import Pinhole
 from fieldnav.preflight.finding import Concern, Finding, Verdict, finding_of
 from fieldnav.preflight.row_measures import canopy_width_m, spacing_m
@@ -26,9 +26,7 @@ ON_THE_LANE = "stand it on the middle of a lane"
 def row_findings(frame: Frame, crop: CropProfile, camera: Pinhole) -> Iterator[Finding]:
     """What the rows in a frame tell of the crop profile."""
     # Rows of quite another spacing are found too where the camera's height is taken for unknown.
-    finding = crop.finding.model_copy(update={"second_witness": False})
-    by_vegetation = crop.model_copy(update={"finding": finding})
-    free = find(frame.image, by_vegetation, camera, pose_known=False)
+    free = find(frame.image, by_vegetation_alone(crop), camera, pose_known=False)
     view = find(frame.image, crop, camera)
     apart_m = spacing_m(free, crop, camera)
     called = f"{frame.camera.value} camera"

@@ -5,7 +5,7 @@ from types import SimpleNamespace
 import pytest
 
 from fieldnav.perception import perceive
-from fieldnav.perception.second_witness import NO_FIELD
+from fieldnav.perception.second_witness import NO_FIELD, by_vegetation_alone
 from fieldnav.settings.crop import ControlLaw
 from states import tracking
 from states.names import Event
@@ -16,8 +16,8 @@ UNSEEN = 0.1
 
 def follower(drawn: SimpleNamespace, second_witness: bool = True) -> SimpleNamespace:
     crop = drawn.profile(ControlLaw.PATH_FOLLOWING)
-    finding = crop.finding.model_copy(update={"second_witness": second_witness})
-    return drawn.robot(crop.model_copy(update={"finding": finding}), drawn.lane(crop, (14.0,) * 3))
+    driven = crop if second_witness else by_vegetation_alone(crop)
+    return drawn.robot(driven, drawn.lane(crop, (14.0,) * 3))
 
 
 @pytest.fixture

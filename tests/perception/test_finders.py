@@ -2,6 +2,7 @@
 
 from types import SimpleNamespace
 
+import numpy as np
 import pytest
 
 from fieldnav.perception.perceive import find
@@ -35,6 +36,14 @@ def test_no_method_believes_in_weeds(drawn: SimpleNamespace, method: RowFinder) 
     for seed in range(4):
         image = drawn.picture(crop, drawn.camera, drawn.strewn(0, seed), drawn.strewn(25, seed), 0.025)
         assert find(image, crop, drawn.camera).lane is None
+
+
+@pytest.mark.parametrize("method", RowFinder)
+@pytest.mark.parametrize("level", [0, 128, 255])
+def test_no_method_finds_rows_where_nothing_is(drawn: SimpleNamespace, method: RowFinder, level: int) -> None:
+    view = find(np.full((720, 1280, 3), level, np.uint8), by(drawn.beet, method), drawn.camera)
+
+    assert view.lane is None and not view.lines
 
 
 def test_a_camera_whose_pose_is_not_trusted_is_searched_for_more_widely(drawn: SimpleNamespace) -> None:

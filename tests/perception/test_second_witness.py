@@ -8,7 +8,7 @@ import pytest
 from fieldnav.evaluation.rowless import as_large
 from fieldnav.messages import Image
 from fieldnav.perception.perceive import find
-from fieldnav.perception.second_witness import BORNE_OUT, share_borne_out
+from fieldnav.perception.second_witness import BORNE_OUT, by_vegetation_alone, share_borne_out
 from fieldnav.settings.crop import CropProfile
 from fieldnav.training.light import expose
 from fieldnav.training.rowless import draw_leaves, draw_scene, draw_uprights
@@ -31,11 +31,6 @@ def rowless() -> list[Image]:
     return pictures
 
 
-def alone(crop: CropProfile) -> CropProfile:
-    """The crop's profile with vegetation as the only witness."""
-    return crop.model_copy(update={"finding": crop.finding.model_copy(update={"second_witness": False})})
-
-
 def test_rows_of_a_field_are_borne_out(drawn: SimpleNamespace, beet: CropProfile) -> None:
     image = drawn.picture(beet, drawn.camera, drawn.stand(beet))
 
@@ -49,7 +44,7 @@ def test_what_vegetation_takes_for_rows_in_scenes_is_no_field(
     rowless: list[Image], beet: CropProfile, drawn: SimpleNamespace
 ) -> None:
     camera = as_large(drawn.camera, rowless[0])
-    by_vegetation = [find(image, alone(beet), camera) for image in rowless]
+    by_vegetation = [find(image, by_vegetation_alone(beet), camera) for image in rowless]
     by_both = [find(image, beet, camera) for image in rowless]
 
     taken = [bool(view.lines) for view in by_vegetation]

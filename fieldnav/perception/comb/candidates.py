@@ -10,7 +10,6 @@ from fieldnav.perception.comb.bands import LEVEL, Bands, bands_of
 from fieldnav.perception.comb.confidence import confidence_of
 from fieldnav.perception.comb.evidence import evidence_of
 from fieldnav.perception.comb.finder import (
-    OBLIQUE,
     OBLIQUE_SCATTER,
     OBLIQUE_VIEW,
     STEEP_SCATTER,
@@ -18,6 +17,7 @@ from fieldnav.perception.comb.finder import (
     curve_rows_px,
     curves_px,
     refined,
+    scatter_of,
 )
 from fieldnav.perception.comb.periodogram import SearchRange, candidates
 from fieldnav.perception.comb.refinement import Stiffness, refine
@@ -101,8 +101,7 @@ def _straight(found: FittedComb, bands: Bands, cover: Cover) -> Candidate:
 
 
 def _of_vegetation(comb: RowComb, bands: Bands, cover: Cover, source: Source) -> Candidate:
-    scatter = STEEP_SCATTER if convergence_of(comb) < OBLIQUE else OBLIQUE_SCATTER
-    rows = rows_of(comb, bands, scatter, IN_VIEW)
+    rows = rows_of(comb, bands, scatter_of(comb), IN_VIEW)
     sure = float(confidence_of(rows, comb, bands).mean()) if len(rows) else 0.0
     return replace(_candidate(comb, rows, cover, source), sure=sure)
 

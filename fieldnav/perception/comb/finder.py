@@ -31,7 +31,7 @@ def find_comb(bands: Bands, tried: SearchRange) -> RowComb | None:
 
 def rows_in(comb: RowComb, bands: Bands, cover: Cover) -> Found:
     """Every row of a comb, whether plants bear it out or not: its confidence tells."""
-    rows = rows_of(comb, bands, STEEP_SCATTER if convergence_of(comb) < OBLIQUE else OBLIQUE_SCATTER)
+    rows = rows_of(comb, bands, scatter_of(comb))
     curves = curves_px(rows, cover)
     confidence = confidence_of(rows, comb, bands)
     lines = tuple(
@@ -45,6 +45,11 @@ def convergence_of(comb: RowComb) -> float:
     """How fast the rows run together: the picture's height over the horizon's distance from its middle."""
     slope, middle = np.polyfit(LEVEL[comb.usable], comb.spacing[comb.usable], 1)
     return float(slope / middle)
+
+
+def scatter_of(comb: RowComb) -> float:
+    """How far a tooth's vegetation lies about its row in such a view, in spacings; see `rows.rows_of`."""
+    return STEEP_SCATTER if convergence_of(comb) < OBLIQUE else OBLIQUE_SCATTER
 
 
 def refined(comb: RowComb, bands: Bands) -> RowComb:
